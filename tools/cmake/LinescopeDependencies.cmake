@@ -1,0 +1,17 @@
+# Every library we stand on; all are Debian packages (tools/packages.txt names them).
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+pkg_check_modules(libusb REQUIRED IMPORTED_TARGET libusb-1.0)
+
+if(LINESCOPE_TESTS)
+  include(GoogleTest)
+  find_package(GTest REQUIRED)
+endif()

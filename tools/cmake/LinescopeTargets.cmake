@@ -1,0 +1,45 @@
+# One place that says how our own code is compiled; third-party headers stay outside of it.
+add_library(linescope_warnings INTERFACE)
+target_compile_options(linescope_warnings INTERFACE
+  $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror>)
+
+add_library(linescope_sanitize INTERFACE)
+if(LINESCOPE_SANITIZE)
+  target_compile_options(linescope_sanitize INTERFACE
+    -fsanitize=${LINESCOPE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g)
+  target_link_options(linescope_sanitize INTERFACE -fsanitize=${LINESCOPE_SANITIZE})
+endif()
+
+# linescope_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...]): the library of one folder.
+function(linescope_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} linescope_sanitize PRIVATE ${ARG_PRIVATE} linescope_warnings)
+endfunction()
+
+# linescope_program(NAME SOURCES... LIBS...): an installed program.
+function(linescope_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_warnings linescope_sanitize)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# linescope_test(NAME LABELS unit surface SOURCES ... LIBS ... [TIMEOUT s]): one GoogleTest program, a CTest test per case.
+function(linescope_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LIBS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
+    linescope_warnings linescope_sanitize)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_cases
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  # gtest_discover_tests flattens lists in PROPERTIES, so several labels are set once the cases are known.
+  set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
+  file(WRITE ${labels_file}
+    "if(${name}_cases)\n  set_tests_properties(\${${name}_cases} PROPERTIES LABELS \"${ARG_LABELS}\")\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels_file})
+endfunction()
