@@ -20,6 +20,7 @@ struct PoseSample {
   ToolState state = ToolState::never_seen;
   Rigid<World, Sensor> world_from_sensor;  ///< meaningless unless usable(state)
   float distortion = std::numeric_limits<float>::quiet_NaN();  ///< metal indicator, NaN when the device gives none
+  Nanoseconds arrival = 0;  ///< when its last byte reached this machine, CLOCK_MONOTONIC; 0 where nobody knows
 };
 
 }  // namespace linescope
