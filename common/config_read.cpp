@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <utility>
 
 #include "common/config_schema.hpp"
@@ -115,20 +115,22 @@ class Reading {
 
 std::vector<ConfigFault> ConfigSchema::read_file(const std::filesystem::path& file) {
   std::ifstream stream(file);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream content;
+  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
   std::error_code ignored;
-  if (stream.is_open() && !stream.bad() && !std::filesystem::is_directory(file, ignored)) {
-    return read_text(content, file.string());
+  if (stream.is_open() && !stream.bad()) return read_text(content.str(), file.string());
+  if (std::filesystem::exists(file, ignored)) {
+    return {{ErrorCode::unreadable,
+             fmt::format("configuration {} cannot be read; check its permissions and that it is a file",
+                         file.string()),
+             {},
+             0}};
   }
-  const bool there = std::filesystem::exists(file, ignored);
-  return {
-      {there ? ErrorCode::unreadable : ErrorCode::not_found,
-       there ? fmt::format("configuration {} cannot be read; check that it is a file and its permissions",
-                           file.string())
-             : fmt::format("there is no configuration file {}; --print-config > {} writes one to start from",
-                           file.string(), file.filename().string()),
-       {},
-       0}};
+  return {{ErrorCode::not_found,
+           fmt::format("there is no configuration file {}; --print-config > {} writes one to start from",
+                       file.string(), file.filename().string()),
+           {},
+           0}};
 }
 
 std::vector<ConfigFault> ConfigSchema::read_text(std::string_view toml, const std::string& file_name) {
