@@ -57,8 +57,8 @@ class TrackerSource {
 
   /// The next sample of any station, times of one station strictly increasing. A sample whose state is not
   /// usable() reports a change of that station (unplugged, out of range ...) and carries no pose. An error
-  /// concerns the input itself (a bad row of a file); what was handed out before stays good. After it a
-  /// recorded source is at its end.
+  /// concerns the input itself, and what was handed out before stays good: with code `unreadable` it is one
+  /// row of a file, and the next call goes on behind it; with any other code the source has come to its end.
   virtual Result<Pull> next(PoseSample& out) = 0;
 
   virtual bool live() const = 0;
