@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,40 +19,48 @@ struct LineSample {
   float width = 0;      ///< px, standard deviation of the profile (a Gaussian's sigma)
   float peak = 0;       ///< grey levels above the local background, 0..255
   float snr = 0;        ///< peak over the noise of this picture's background
-  float saturated = 0;  ///< px of saturated plateau in this profile
-  float second = std::numeric_limits<float>::quiet_NaN();  ///< px along the profile: the next best candidate;
-                                                           ///< NaN when there is none
+  float saturated = 0;  ///< px of saturated plateau
+  float second =
+      std::numeric_limits<float>::quiet_NaN();  ///< px along the profile: next best candidate, NaN if none
   float second_ratio = 0;  ///< support of the second candidate over that of this one, 0..1
 };
 
-/// Why a profile (column or row) gave no point. Every profile of a picture is either a sample or counted
-/// under one of these.
+/// Why a candidate was rejected, and why a profile (column or row) gave no point.
 enum class NoPoint : std::uint8_t {
-  no_light,     ///< nothing of the laser's colour
-  too_dim,      ///< signal-to-noise below min_snr
-  too_narrow,   ///< a speck: narrower than min_width
-  too_wide,     ///< a glow or coloured object: wider than max_width
-  saturated,    ///< plateau longer than max_saturated
-  ambiguous,    ///< two candidates of about the same support
-  isolated,     ///< no neighbours to make it a line
-  at_border,    ///< the line leaves the picture here
-  bad_picture,  ///< empty or not 8-bit BGR or grey: every profile is counted here
+  no_light,      ///< nothing bright or coloured enough to look at
+  wrong_colour,  ///< a bright streak, but not of the laser's colour
+  too_dim,       ///< below min_snr or relative_threshold
+  too_narrow,    ///< a speck: narrower than min_width
+  too_wide,      ///< a glow or an object: wider than max_width
+  saturated,     ///< plateau longer than max_saturated
+  at_border,     ///< the line leaves the picture here
+  isolated,      ///< no neighbours to make it a line
+  ambiguous,     ///< two candidates of about the same support
+  bad_picture,   ///< empty, or not 8-bit BGR or grey
 };
-inline constexpr std::size_t kNoPointReasons = 9;
+inline constexpr std::size_t kNoPointReasons = 10;
 
 /// For people and log lines, for example "too wide".
 std::string_view name(NoPoint reason);
+
+using NoPointCounts = std::array<std::uint32_t, kNoPointReasons>;
 
 struct ExtractedLine {
   int width = 0;   ///< of the picture, px
   int height = 0;  ///< px
   ProfileAxis axis = ProfileAxis::column;
-  std::vector<LineSample> samples;                        ///< in the order of the profiles; at most one each
-  std::array<std::uint32_t, kNoPointReasons> no_point{};  ///< profiles without a point, by reason
+  std::vector<LineSample> samples;  ///< in the order of the profiles; at most one each
+
+  /// Every profile of the picture is either a sample or counted here once, under the fault of its best
+  /// candidate.
+  NoPointCounts no_point{};
+  /// Every rejected candidate, also those of profiles that gave a point.
+  NoPointCounts rejected_candidates{};
+  std::uint32_t crowded = 0;      ///< candidates not looked at because their profile had too many
+  std::uint32_t with_second = 0;  ///< samples that have a second candidate
   float noise = 0;                ///< grey levels, standard deviation of the background beside the line
   float mean_snr = 0;             ///< of the samples
-  float saturated_fraction = 0;   ///< samples with a saturated plateau / samples: for the exposure
-  std::uint32_t with_second = 0;  ///< samples that have a second candidate
+  float saturated_fraction = 0;   ///< samples with a saturated pixel / samples: for the exposure
 
   std::uint32_t count(NoPoint reason) const { return no_point[static_cast<std::size_t>(reason)]; }
   int profiles() const { return axis == ProfileAxis::column ? width : height; }

@@ -1,6 +1,8 @@
 // What can be chosen about the extraction of the laser line.
 #pragma once
 
+#include <cstdint>
+
 #include "acquire/laser/laser_colour.hpp"
 #include "common/result.hpp"
 
@@ -14,35 +16,41 @@ enum class ProfileAxis : std::uint8_t {
 
 enum class CentreMethod : std::uint8_t {
   weighted_mean,   ///< mean position weighted with the colour excess above the threshold: the thesis (4.2.3)
-  gauss_weighted,  ///< matched Gaussian on the laser's intensity: within a tenth of the Cramer-Rao bound
+  gauss_weighted,  ///< matched Gaussian on the laser's own channel: within a tenth of the Cramer-Rao bound
 };
 
-/// Grey levels are 0..255, lengths are pixels.
+/// Grey levels are 0..255, lengths are pixels. Widths are full widths at half height.
 struct LineExtractorOptions {
   LaserColour colour = LaserColour::green;
   ProfileAxis axis = ProfileAxis::column;
   CentreMethod centre = CentreMethod::gauss_weighted;
 
-  // Where the line may be: segmentation by colour.
-  int threshold = 24;  ///< grey levels of colour excess that a pixel of the line has at least; 1 .. 254
-  double relative_threshold =
-      0;  ///< and at least this fraction of the picture's largest excess; 0 switches it off; 0 .. 0.95
-  int merge_gap = 3;  ///< px; runs of line pixels closer than this in a profile are one candidate
-  int saturation_level =
-      250;  ///< grey levels from which a channel counts as saturated; a white core bridges two runs
+  // Where the line may be. A pixel is looked at when it passes one of the two tests.
+  int colour_threshold = 24;  ///< grey levels of colour excess (laser_colour.hpp); 1..254
+  int ridge_threshold =
+      16;  ///< grey levels brighter than both sides in the laser's channel; 0 switches it off; 0..254.
+           ///< It finds lines whose colour drowns in ambient light or in saturation.
+  int ridge_reach = 24;        ///< px; where "both sides" are: at least the line's width; 2..256
+  double colour_ratio = 1.2;   ///< the light that a ridge adds is at least this much more laser-coloured than
+                               ///< its surroundings; 1..10
+  int merge_gap = 3;           ///< px; pieces of one profile closer than this are one candidate; 0..32
+  int saturation_level = 245;  ///< grey levels from which a channel counts as saturated; 128..255
 
   // What a point of the line must look like.
-  double min_width = 1.0;   ///< px; fewer pixels above half height are noise
-  double max_width = 80.0;  ///< px; a broader band of light is no line
+  double min_width = 1.0;   ///< px; anything narrower is a speck
+  double max_width = 80.0;  ///< px; anything broader is a glow or an object
   int max_saturated = 60;   ///< px; a longer saturated plateau hides where the middle is
-  double min_snr = 3.0;     ///< peak above background over the picture's noise
-  int border = 2;           ///< px; a line closer than this to the end of its profile may be cut off
+  double min_snr = 4.0;     ///< peak above the background over the picture's noise
+  double relative_threshold =
+      0.0;  ///< peak over the strong peaks (95th percentile) of the same picture; 0 switches it off; 0..0.95
+  int border = 1;  ///< px; a line that reaches this close to the end of its profile may be cut off
 
   // What makes it a line: neighbours.
-  int min_run = 8;         ///< profiles; a shorter connected piece is a glint
-  double max_step = 4.0;   ///< px from one profile to the next within one piece; a jump costs support
-  double ambiguity = 0.9;  ///< a rival piece with more than this fraction of the support makes both unusable;
-                           ///< 1 keeps the best
+  int min_run = 8;        ///< profiles; a shorter connected piece is a glint
+  double max_step = 4.0;  ///< px from one profile to the next within a piece
+  int max_gap = 4;        ///< profiles that may be missing within a piece; 0..64
+  double ambiguity =
+      0.95;  ///< a rival with more than this fraction of the support makes the profile ambiguous; 0.1..1
 };
 
 /// The first impossible value in one sentence.
