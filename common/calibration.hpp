@@ -1,4 +1,5 @@
-// Everything a scan needs to know about the instrument, and the file it is kept in (OpenCV YAML; docs/calibration.md).
+// Everything a scan needs to know about the instrument, and the file it is kept in (OpenCV YAML;
+// docs/calibration.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,17 +27,26 @@ struct Calibration {
   LaserPlane laser;
   Rigid<Endoscope, CameraCv> endoscope_from_camera;
   HarvesterCalibration harvester;
-  Nanoseconds camera_latency = 0;  ///< picture's time stamp minus true middle of exposure, on the tracker's clock
+  Nanoseconds camera_latency =
+      0;  ///< picture's time stamp minus true middle of exposure, on the tracker's clock
   std::vector<std::string> notes;  ///< what was left at its default, what looks odd
 };
 
 /// Reads a file. Keys and shapes: docs/calibration.md. Failures name the file, the key and what to do.
 Result<Calibration> load_calibration(const std::filesystem::path& file);
 
-/// Writes a file that load_calibration reads back; the old file is replaced only when the new one is complete.
+/// Writes a file that load_calibration reads back; the old file is replaced only when the new one is
+/// complete.
 Result<void> save_calibration(const Calibration& calibration, const std::filesystem::path& file);
 
-/// Plausibility of the whole: camera, working depth of the laser plane, rigid parts. One sentence for the first fault.
+/// The file's content: what the segment publishes for viewers.
+Result<std::string> calibration_text(const Calibration& calibration);
+
+/// The calibration in such a text; `origin` names it in failures.
+Result<Calibration> calibration_from_text(const std::string& yaml, const std::string& origin);
+
+/// Plausibility of the whole: camera, working depth of the laser plane, rigid parts. One sentence for the
+/// first fault.
 Result<void> validate(const Calibration& calibration);
 
 /// The thesis's instruments as printed (section 3.2.2; b = 6 mm, alpha = 14 degrees).

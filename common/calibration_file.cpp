@@ -19,8 +19,8 @@ tl::unexpected<Error> in_file(const fs::path& file, const Error& error) {
 }
 
 /// A matrix of the wanted shape under the first of `keys` that exists; nothing when none does.
-Result<std::optional<cv::Mat>> matrix(const cv::FileStorage& storage, std::initializer_list<const char*> keys, int rows,
-                                      int cols) {
+Result<std::optional<cv::Mat>> matrix(const cv::FileStorage& storage, std::initializer_list<const char*> keys,
+                                      int rows, int cols) {
   for (const char* key : keys) {
     const cv::FileNode node = storage[key];
     if (node.empty()) continue;
@@ -29,15 +29,17 @@ Result<std::optional<cv::Mat>> matrix(const cv::FileStorage& storage, std::initi
       node >> m;
       m.convertTo(m, CV_64F);
     } catch (const cv::Exception&) {
-      return fail(ErrorCode::invalid, fmt::format("{} is not a matrix (!!opencv-matrix with rows, cols, dt, data)", key));
+      return fail(ErrorCode::invalid,
+                  fmt::format("{} is not a matrix (!!opencv-matrix with rows, cols, dt, data)", key));
     }
     const bool transposed = rows == 1 && m.rows != 1 && m.cols == 1;
     if (transposed) m = m.t();
     if (m.rows != rows || (cols > 0 && m.cols != cols)) {
-      return fail(ErrorCode::invalid,
-                  fmt::format("{} is {}x{}, but must be {}x{}", key, m.rows, m.cols, rows, cols > 0 ? cols : 4));
+      return fail(ErrorCode::invalid, fmt::format("{} is {}x{}, but must be {}x{}", key, m.rows, m.cols, rows,
+                                                  cols > 0 ? cols : 4));
     }
-    if (!cv::checkRange(m)) return fail(ErrorCode::invalid, fmt::format("{} holds a number that is not finite", key));
+    if (!cv::checkRange(m))
+      return fail(ErrorCode::invalid, fmt::format("{} holds a number that is not finite", key));
     return m.clone();
   }
   return std::nullopt;
@@ -48,7 +50,9 @@ Result<CameraModel> read_camera(const cv::FileStorage& storage) {
   camera.width = static_cast<int>(storage["image_width"].real());
   camera.height = static_cast<int>(storage["image_height"].real());
   if (storage["image_width"].empty() || storage["image_height"].empty()) {
-    return fail(ErrorCode::invalid, "image_width and image_height are missing: the size in pixels at which the camera was calibrated");
+    return fail(
+        ErrorCode::invalid,
+        "image_width and image_height are missing: the size in pixels at which the camera was calibrated");
   }
   auto k = matrix(storage, {"camera_matrix"}, 3, 3);
   if (!k) return tl::unexpected(k.error());
@@ -62,9 +66,14 @@ Result<CameraModel> read_camera(const cv::FileStorage& storage) {
   camera.cy = m.at<double>(1, 2);
   auto d = matrix(storage, {"distortion_coefficients"}, 1, 0);
   if (!d) return tl::unexpected(d.error());
-  if (!*d) return fail(ErrorCode::invalid, "distortion_coefficients is missing (k1 k2 p1 p2 or k1 k2 p1 p2 k3; zeros for none)");
+  if (!*d)
+    return fail(ErrorCode::invalid,
+                "distortion_coefficients is missing (k1 k2 p1 p2 or k1 k2 p1 p2 k3; zeros for none)");
   if ((*d)->cols != 4 && (*d)->cols != 5) {
-    return fail(ErrorCode::invalid, fmt::format("distortion_coefficients has {} numbers; 4 (k1 k2 p1 p2) or 5 (and k3) are understood", (*d)->cols));
+    return fail(
+        ErrorCode::invalid,
+        fmt::format("distortion_coefficients has {} numbers; 4 (k1 k2 p1 p2) or 5 (and k3) are understood",
+                    (*d)->cols));
   }
   for (int i = 0; i < (*d)->cols; ++i) camera.distortion[static_cast<std::size_t>(i)] = (*d)->at<double>(i);
   return camera;
@@ -74,16 +83,20 @@ Result<LaserPlane> read_laser(const cv::FileStorage& storage) {
   auto plane = matrix(storage, {"laser_plane"}, 1, 4);
   if (!plane) return tl::unexpected(plane.error());
   if (*plane) {
-    return laser_plane_from_opencv({(*plane)->at<double>(0), (*plane)->at<double>(1), (*plane)->at<double>(2), (*plane)->at<double>(3)});
+    return laser_plane_from_opencv(
+        {(*plane)->at<double>(0), (*plane)->at<double>(1), (*plane)->at<double>(2), (*plane)->at<double>(3)});
   }
   const cv::FileNode b = storage["laser_baseline_mm"], alpha = storage["laser_alpha_deg"];
   if (b.empty() || alpha.empty()) {
-    return fail(ErrorCode::invalid, "laser_plane (1x4, n.p + d = 0, OpenCV's camera frame, mm) is missing, and so are laser_baseline_mm and laser_alpha_deg");
+    return fail(ErrorCode::invalid,
+                "laser_plane (1x4, n.p + d = 0, OpenCV's camera frame, mm) is missing, and so are "
+                "laser_baseline_mm and laser_alpha_deg");
   }
   return laser_plane_from_baseline(b.real(), radians_from_degrees(alpha.real()));
 }
 
-Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage, std::vector<std::string>& notes) {
+Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage,
+                                                 std::vector<std::string>& notes) {
   auto found = matrix(storage, {"endoscope_from_camera", "tool_from_camera"}, 4, 4);
   if (!found) return tl::unexpected(found.error());
   if (!*found) {
@@ -95,8 +108,11 @@ Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage,
     for (int c = 0; c < 4; ++c) t(r, c) = (*found)->at<double>(r, c);
   const Eigen::Matrix3d rotation = t.topLeftCorner<3, 3>();
   const double defect = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (defect > 1e-3 || rotation.determinant() < 0 || (t.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9) {
-    return fail(ErrorCode::invalid, "endoscope_from_camera is not a rigid transform (rotation, translation in mm, last row 0 0 0 1; OpenCV's camera frame)");
+  if (defect > 1e-3 || rotation.determinant() < 0 ||
+      (t.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9) {
+    return fail(ErrorCode::invalid,
+                "endoscope_from_camera is not a rigid transform (rotation, translation in mm, last row 0 0 0 "
+                "1; OpenCV's camera frame)");
   }
   return Rigid<Endoscope, CameraCv>(Eigen::Quaterniond(rotation), t.topRightCorner<3, 1>());
 }
@@ -126,6 +142,24 @@ cv::Mat row(const Eigen::VectorXd& v) {
   return m;
 }
 
+void write_all(cv::FileStorage& out, const Calibration& c) {
+  out << "name" << c.name;
+  out << "image_width" << c.camera.width << "image_height" << c.camera.height;
+  out << "camera_matrix"
+      << cv::Mat((cv::Mat_<double>(3, 3) << c.camera.fx, c.camera.skew, c.camera.cx, 0, c.camera.fy,
+                  c.camera.cy, 0, 0, 1));
+  out << "distortion_coefficients" << row(Eigen::Map<const Eigen::VectorXd>(c.camera.distortion.data(), 5));
+  out.writeComment("n.p + d = 0 in OpenCV's camera frame (y down), mm");
+  out << "laser_plane" << row(opencv_from_laser_plane(c.laser));
+  const Eigen::Matrix4d t = c.endoscope_from_camera.isometry().matrix();
+  cv::Mat hand_eye(4, 4, CV_64F);
+  for (int r = 0; r < 4; ++r)
+    for (int k = 0; k < 4; ++k) hand_eye.at<double>(r, k) = t(r, k);
+  out << "endoscope_from_camera" << hand_eye;
+  out << "harvester_tip" << row(c.harvester.tip) << "harvester_axis" << row(c.harvester.axis);
+  out << "camera_latency_ms" << milliseconds_from(c.camera_latency);
+}
+
 Result<Calibration> read_all(const cv::FileStorage& storage) {
   Calibration c;
   c.name = storage["name"].empty() ? "" : storage["name"].string();
@@ -150,47 +184,54 @@ Result<Calibration> read_all(const cv::FileStorage& storage) {
 
 }  // namespace
 
+Result<Calibration> calibration_from_text(const std::string& yaml, const std::string& origin) {
+  try {
+    const cv::FileStorage storage(
+        yaml, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+    if (!storage.isOpened())
+      return fail(ErrorCode::unreadable, fmt::format("calibration {}: not OpenCV YAML", origin));
+    auto calibration = read_all(storage);
+    if (!calibration) return in_file(origin, calibration.error());
+    if (calibration->name.empty()) calibration->name = fs::path(origin).filename().string();
+    return calibration;
+  } catch (const cv::Exception& e) {
+    return fail(ErrorCode::unreadable, fmt::format("calibration {}: not OpenCV YAML ({})", origin, e.err));
+  }
+}
+
 Result<Calibration> load_calibration(const fs::path& file) {
   if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
     return fail(ErrorCode::not_found, fmt::format("calibration {}: no such file", file.string()));
   }
-  try {
-    const cv::FileStorage storage(file.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_YAML);
-    if (!storage.isOpened()) return fail(ErrorCode::unreadable, fmt::format("calibration {}: cannot be opened", file.string()));
-    auto calibration = read_all(storage);
-    if (!calibration) return in_file(file, calibration.error());
-    if (calibration->name.empty()) calibration->name = file.filename().string();
-    return calibration;
-  } catch (const cv::Exception& e) {
-    return fail(ErrorCode::unreadable, fmt::format("calibration {}: not OpenCV YAML ({})", file.string(), e.err));
-  }
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in || text.empty())
+    return fail(ErrorCode::unreadable, fmt::format("calibration {}: empty or not readable", file.string()));
+  return calibration_from_text(text, file.string());
+}
+
+Result<std::string> calibration_text(const Calibration& calibration) {
+  if (auto ok = validate(calibration); !ok) return tl::unexpected(ok.error());
+  cv::FileStorage out(".yaml",
+                      cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  write_all(out, calibration);
+  return out.releaseAndGetString();
 }
 
 Result<void> save_calibration(const Calibration& c, const fs::path& file) {
-  if (auto ok = validate(c); !ok) return in_file(file, ok.error());
-  const fs::path partial = file.string() + ".part.yaml";
-  try {
-    cv::FileStorage out(partial.string(), cv::FileStorage::WRITE | cv::FileStorage::FORMAT_YAML);
-    if (!out.isOpened()) return fail(ErrorCode::permission, fmt::format("calibration {}: cannot be written there", file.string()));
-    out << "name" << c.name;
-    out << "image_width" << c.camera.width << "image_height" << c.camera.height;
-    out << "camera_matrix" << cv::Mat((cv::Mat_<double>(3, 3) << c.camera.fx, c.camera.skew, c.camera.cx, 0, c.camera.fy, c.camera.cy, 0, 0, 1));
-    out << "distortion_coefficients" << row(Eigen::Map<const Eigen::VectorXd>(c.camera.distortion.data(), 5));
-    out.writeComment("n.p + d = 0 in OpenCV's camera frame (y down), mm");
-    out << "laser_plane" << row(opencv_from_laser_plane(c.laser));
-    const Eigen::Matrix4d t = c.endoscope_from_camera.isometry().matrix();
-    cv::Mat hand_eye(4, 4, CV_64F);
-    for (int r = 0; r < 4; ++r)
-      for (int k = 0; k < 4; ++k) hand_eye.at<double>(r, k) = t(r, k);
-    out << "endoscope_from_camera" << hand_eye;
-    out << "harvester_tip" << row(c.harvester.tip) << "harvester_axis" << row(c.harvester.axis);
-    out << "camera_latency_ms" << milliseconds_from(c.camera_latency);
-  } catch (const cv::Exception& e) {
-    return fail(ErrorCode::unreadable, fmt::format("calibration {}: cannot be written ({})", file.string(), e.err));
-  }
+  auto text = calibration_text(c);
+  if (!text) return in_file(file, text.error());
+  const fs::path partial = file.string() + ".part";
+  std::ofstream out(partial);
+  out << *text;
+  out.close();
   std::error_code error;
-  fs::rename(partial, file, error);
-  if (error) return fail(ErrorCode::permission, fmt::format("calibration {}: {}", file.string(), error.message()));
+  if (out) fs::rename(partial, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    fs::remove(partial, ignored);
+    return fail(ErrorCode::permission, fmt::format("calibration {}: cannot be written there", file.string()));
+  }
   return {};
 }
 

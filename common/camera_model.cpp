@@ -23,7 +23,8 @@ Distorted distort(const Vector2d& p, const std::array<double, 5>& d) {
   const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
   const double slope = k1 + r2 * (2 * k2 + 3 * r2 * k3);  // d radial / d r2
   Distorted out;
-  out.xy = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+  out.xy = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+            y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
   const double cross = 2 * x * y * slope + 2 * p1 * x + 2 * p2 * y;
   out.derivative << radial + 2 * x * x * slope + 2 * p1 * y + 6 * p2 * x, cross, cross,
       radial + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x;
@@ -72,27 +73,40 @@ CameraModel CameraModel::scaled_to(int new_width, int new_height) const {
 
 Result<void> validate(const CameraModel& c) {
   if (c.width < 16 || c.height < 16) {
-    return fail(ErrorCode::invalid, fmt::format("picture size {}x{} is too small: image_width and image_height are in pixels",
-                                                c.width, c.height));
+    return fail(ErrorCode::invalid,
+                fmt::format("picture size {}x{} is too small: image_width and image_height are in pixels",
+                            c.width, c.height));
   }
-  const std::array values{c.fx, c.fy, c.skew, c.cx, c.cy, c.distortion[0], c.distortion[1],
-                          c.distortion[2], c.distortion[3], c.distortion[4]};
+  const std::array values{c.fx,
+                          c.fy,
+                          c.skew,
+                          c.cx,
+                          c.cy,
+                          c.distortion[0],
+                          c.distortion[1],
+                          c.distortion[2],
+                          c.distortion[3],
+                          c.distortion[4]};
   for (double v : values) {
-    if (!std::isfinite(v)) return fail(ErrorCode::invalid, "camera_matrix or distortion_coefficients holds a number that is not finite");
+    if (!std::isfinite(v))
+      return fail(ErrorCode::invalid,
+                  "camera_matrix or distortion_coefficients holds a number that is not finite");
   }
   if (c.fx == 0 || c.fy == 0) {
     return fail(ErrorCode::invalid, "camera_matrix is singular: a focal length is zero");
   }
   const double smallest = 0.1 * c.width;
   if (c.fx < smallest || c.fy < smallest || c.fx > 100.0 * c.width || c.fy > 100.0 * c.width) {
-    return fail(ErrorCode::invalid,
-                fmt::format("focal length {:g} x {:g} cannot belong to a picture {} pixels wide: camera_matrix must be in "
-                            "pixels, not millimetres or picture widths",
-                            c.fx, c.fy, c.width));
+    return fail(
+        ErrorCode::invalid,
+        fmt::format(
+            "focal length {:g} x {:g} cannot belong to a picture {} pixels wide: camera_matrix must be in "
+            "pixels, not millimetres or picture widths",
+            c.fx, c.fy, c.width));
   }
   if (c.cx < 0 || c.cy < 0 || c.cx > c.width || c.cy > c.height) {
-    return fail(ErrorCode::invalid, fmt::format("principal point ({:g}, {:g}) lies outside the {}x{} picture", c.cx, c.cy,
-                                                c.width, c.height));
+    return fail(ErrorCode::invalid, fmt::format("principal point ({:g}, {:g}) lies outside the {}x{} picture",
+                                                c.cx, c.cy, c.width, c.height));
   }
   return {};
 }

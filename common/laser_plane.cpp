@@ -23,7 +23,8 @@ BaselineForm baseline_form(const LaserPlane& plane) {
 Result<LaserPlane> laser_plane_from_opencv(const Eigen::Vector4d& n_and_d) {
   const double length = n_and_d.head<3>().norm();
   if (!n_and_d.allFinite() || length < 1e-9) {
-    return fail(ErrorCode::invalid, "laser_plane has no direction: its first three numbers must be a normal vector");
+    return fail(ErrorCode::invalid,
+                "laser_plane has no direction: its first three numbers must be a normal vector");
   }
   LaserPlane plane;
   plane.normal = thesis_from_opencv(n_and_d.head<3>() / length);

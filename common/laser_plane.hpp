@@ -14,8 +14,8 @@ struct LaserPlane {
   Eigen::Vector3d normal{0, 1, 0};
   double offset = 0;
 
-  /// Depth z (mm) at which the ray through (x, y, 1) meets the plane; nothing when it runs along the plane or meets it
-  /// behind the camera.
+  /// Depth z (mm) at which the ray through (x, y, 1) meets the plane; nothing when it runs along the plane or
+  /// meets it behind the camera.
   std::optional<double> depth_along(double x, double y) const {
     const double slope = normal.x() * x + normal.y() * y + normal.z();
     if (std::abs(slope) < 1e-12) return std::nullopt;
@@ -28,8 +28,8 @@ struct LaserPlane {
 /// The special case of the thesis (Eq 4.3): y + z tan(alpha) = b. Baseline in mm, angle in radians.
 LaserPlane laser_plane_from_baseline(double baseline_mm, double alpha_rad);
 
-/// Baseline b and deviation alpha of Eq 4.3 as this plane shows them on the camera's y-z plane; `tilt` is the rest that
-/// Eq 4.3 cannot express (rotation about the optical axis, radians).
+/// Baseline b and deviation alpha of Eq 4.3 as this plane shows them on the camera's y-z plane; `tilt` is the
+/// rest that Eq 4.3 cannot express (rotation about the optical axis, radians).
 struct BaselineForm {
   double baseline_mm = 0;
   double alpha_rad = 0;

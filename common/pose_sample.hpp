@@ -19,8 +19,10 @@ struct PoseSample {
   std::uint8_t station = 0;       ///< 0 .. kMaxStations-1
   ToolState state = ToolState::never_seen;
   Rigid<World, Sensor> world_from_sensor;  ///< meaningless unless usable(state)
-  float distortion = std::numeric_limits<float>::quiet_NaN();  ///< metal indicator, NaN when the device gives none
-  Nanoseconds arrival = 0;  ///< when its last byte reached this machine, CLOCK_MONOTONIC; 0 where nobody knows
+  float distortion =
+      std::numeric_limits<float>::quiet_NaN();  ///< metal indicator, NaN when the device gives none
+  Nanoseconds arrival =
+      0;  ///< when its last byte reached this machine, CLOCK_MONOTONIC; 0 where nobody knows
 };
 
 }  // namespace linescope

@@ -4,8 +4,8 @@
 //   Vector3d p_world = world_from_endoscope * p_endoscope;
 //   Rigid<World, CameraCv> world_from_camera = world_from_endoscope * endoscope_from_camera;
 //
-// Millimetres. All frames that appear here are right-handed; the thesis's camera frame (y up) is left-handed and is
-// converted in common/camera_convention.hpp, nowhere else.
+// Millimetres. All frames that appear here are right-handed; the thesis's camera frame (y up) is left-handed
+// and is converted in common/camera_convention.hpp, nowhere else.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -22,10 +22,14 @@ enum class ToolState : std::uint8_t {
 /// A pose older than this is not shown any more (DESIGN.md).
 inline constexpr Nanoseconds kStaleAfter = 200 * kMillisecond;
 
-constexpr ToolState worst(ToolState a, ToolState b) { return a < b ? b : a; }
+constexpr ToolState worst(ToolState a, ToolState b) {
+  return a < b ? b : a;
+}
 
 /// True where a number may be derived from a pose in this state.
-constexpr bool usable(ToolState state) { return state == ToolState::ok; }
+constexpr bool usable(ToolState state) {
+  return state == ToolState::ok;
+}
 
 /// The word shown to people and written to files, for example "out of view".
 std::string_view name(ToolState state);

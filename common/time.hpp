@@ -15,8 +15,14 @@ inline constexpr Nanoseconds kSecond = 1'000'000'000;
 /// Now. Never fails, never goes back; safe from any thread.
 Nanoseconds monotonic_now() noexcept;
 
-constexpr double seconds_from(Nanoseconds t) { return static_cast<double>(t) * 1e-9; }
-constexpr double milliseconds_from(Nanoseconds t) { return static_cast<double>(t) * 1e-6; }
-constexpr Nanoseconds nanoseconds_from_seconds(double s) { return static_cast<Nanoseconds>(s * 1e9); }
+constexpr double seconds_from(Nanoseconds t) {
+  return static_cast<double>(t) * 1e-9;
+}
+constexpr double milliseconds_from(Nanoseconds t) {
+  return static_cast<double>(t) * 1e-6;
+}
+constexpr Nanoseconds nanoseconds_from_seconds(double s) {
+  return static_cast<Nanoseconds>(s * 1e9);
+}
 
 }  // namespace linescope

@@ -22,7 +22,8 @@ TEST(Euler, QuaternionIsTheProductOfThePrintedMatrices) {
   for (double psi : {-170.0, -40.0, 0.0, 75.0, 180.0})
     for (double theta : {-90.0, -30.0, 0.0, 60.0, 90.0})
       for (double phi : {-179.0, 0.0, 20.0, 140.0}) {
-        const double a = radians_from_degrees(psi), e = radians_from_degrees(theta), r = radians_from_degrees(phi);
+        const double a = radians_from_degrees(psi), e = radians_from_degrees(theta),
+                     r = radians_from_degrees(phi);
         EXPECT_TRUE(quaternion_from_euler({a, e, r}).toRotationMatrix().isApprox(printed(a, e, r), 1e-12));
       }
 }
@@ -31,8 +32,8 @@ TEST(Euler, AnglesComeBackWithinTheirRanges) {
   for (double psi : {-179.9, -90.0, 0.0, 33.0, 180.0})
     for (double theta : {-89.9, -12.0, 0.0, 45.0, 89.9})
       for (double phi : {-150.0, 0.0, 90.0, 180.0}) {
-        const EulerAngles out = euler_from_quaternion(
-            quaternion_from_euler({radians_from_degrees(psi), radians_from_degrees(theta), radians_from_degrees(phi)}));
+        const EulerAngles out = euler_from_quaternion(quaternion_from_euler(
+            {radians_from_degrees(psi), radians_from_degrees(theta), radians_from_degrees(phi)}));
         EXPECT_NEAR(std::remainder(degrees_from_radians(out.azimuth) - psi, 360.0), 0, 1e-6);
         EXPECT_NEAR(degrees_from_radians(out.elevation), theta, 1e-6);
         EXPECT_NEAR(std::remainder(degrees_from_radians(out.roll) - phi, 360.0), 0, 1e-6);
@@ -42,7 +43,8 @@ TEST(Euler, AnglesComeBackWithinTheirRanges) {
 }
 
 TEST(Euler, ElevationBeyondNinetyDegreesFoldsBack) {
-  // Turning on past the pole: the elevation comes down again while azimuth and roll jump by 180 degrees (thesis Fig 3.9b).
+  // Turning on past the pole: the elevation comes down again while azimuth and roll jump by 180 degrees
+  // (thesis Fig 3.9b).
   const EulerAngles out = euler_from_quaternion(quaternion_from_euler({0, radians_from_degrees(100), 0}));
   EXPECT_NEAR(degrees_from_radians(out.elevation), 80, 1e-9);
   EXPECT_NEAR(std::abs(degrees_from_radians(out.azimuth)), 180, 1e-9);
@@ -51,7 +53,8 @@ TEST(Euler, ElevationBeyondNinetyDegreesFoldsBack) {
 
 TEST(Euler, AzimuthAndRollWrapAtPlusMinus180) {
   const auto near_seam = [](double degrees) {
-    return degrees_from_radians(euler_from_quaternion(quaternion_from_euler({radians_from_degrees(degrees), 0.1, 0})).azimuth);
+    return degrees_from_radians(
+        euler_from_quaternion(quaternion_from_euler({radians_from_degrees(degrees), 0.1, 0})).azimuth);
   };
   EXPECT_NEAR(near_seam(179.5), 179.5, 1e-9);
   EXPECT_NEAR(near_seam(180.5), -179.5, 1e-9);

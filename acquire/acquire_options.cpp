@@ -1,0 +1,159 @@
+#include "acquire/acquire_options.hpp"
+
+#include <fmt/format.h>
+
+#include "common/units.hpp"
+#include "ipc/segment_options.hpp"
+
+namespace linescope {
+namespace {
+
+void declare_run(ConfigSchema& schema, RunOptions& run) {
+  schema.section("run", "The daemon itself.");
+  schema.text("run.segment", run.segment, "Name of the shared-memory segment.");
+  schema.text("run.group", run.group,
+              "Group whose members may read the segment; empty: only the user who started the daemon.");
+  schema.integer("run.capacity_minutes", run.capacity_minutes, {.unit = "min", .min = 1, .max = 600},
+                 "Scanning time for which the segment has room.");
+  schema.flag("run.scan_at_start", run.scan_at_start, "Scan at once instead of waiting for the Scan button.");
+  schema.choice("run.pace", run.pace, {{"real-time", Pace::real_time}, {"fast", Pace::fast}},
+                "Speed at which recorded and simulated sources are played.");
+  schema.flag(
+      "run.exit_at_end", run.exit_at_end,
+      "End when a recorded source is through; otherwise the segment stays until the daemon is stopped.");
+}
+
+void declare_camera(ConfigSchema& schema, CameraChoice& camera) {
+  schema.section("camera", "Where the pictures come from.");
+  schema.text(
+      "camera.source", camera.source,
+      "\"twin\", a folder of pictures, a video file, or a camera: its path, its index, or part of its name.");
+  schema.number("camera.file_rate_hz", camera.file_rate_hz, {.unit = "Hz", .min = 0.1, .max = 1000},
+                "Pictures per second of a folder; a video brings its own.");
+  DeviceCameraOptions& device = camera.device;
+  schema.integer("camera.width", device.width, {.unit = "px", .min = 16, .max = 8192},
+                 "Picture width asked of a camera.");
+  schema.integer("camera.height", device.height, {.unit = "px", .min = 16, .max = 8192},
+                 "Picture height asked of a camera.");
+  schema.number("camera.rate_hz", device.rate_hz, {.unit = "Hz", .min = 1, .max = 1000},
+                "Pictures per second asked of a camera.");
+  schema.text("camera.pixel_format", device.pixel_format,
+              "Four characters, for example MJPG or YUYV; empty: the camera's choice.");
+  schema.number("camera.exposure_ms", device.exposure_ms, {.unit = "ms", .min = 0, .max = 1000},
+                "Exposure time; 0: automatic.");
+  schema.number("camera.gain", device.gain, {.min = -1, .max = 10000},
+                "Gain in the camera's own unit; -1: left as it is.");
+  schema.number("camera.white_balance_k", device.white_balance_k, {.unit = "K", .min = 0, .max = 12000},
+                "White balance, locked at this colour temperature; 0: left automatic.");
+}
+
+void declare_tracker(ConfigSchema& schema, TrackerChoice& tracker) {
+  schema.section("tracker", "Where the poses come from.");
+  schema.text("tracker.source", tracker.source, "\"twin\", \"none\", or a CSV file of poses.");
+  schema.integer("tracker.endoscope_station", tracker.roles.endoscope, {.min = -1, .max = 7},
+                 "Station of sensor 1, counted from 0; -1: none.");
+  schema.integer("tracker.object_station", tracker.roles.object, {.min = -1, .max = 7},
+                 "Station of sensor 2, on the knee; -1: none.");
+  schema.integer("tracker.harvester_station", tracker.roles.harvester, {.min = -1, .max = 7},
+                 "Station of sensor 3; -1: none.");
+}
+
+void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
+  schema.section("laser", "How the laser line is found in a picture.");
+  schema.choice("laser.colour", laser.colour,
+                {{"green", LaserColour::green},
+                 {"red", LaserColour::red},
+                 {"blue", LaserColour::blue},
+                 {"cyan", LaserColour::cyan},
+                 {"violet", LaserColour::violet},
+                 {"yellow", LaserColour::yellow},
+                 {"mono", LaserColour::mono}},
+                "Colour of the laser.");
+  schema.choice("laser.axis", laser.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
+                "One point per column (line runs left to right) or per row (top to bottom).");
+  schema.choice(
+      "laser.centre", laser.centre,
+      {{"gauss-weighted", CentreMethod::gauss_weighted}, {"weighted-mean", CentreMethod::weighted_mean}},
+      "Middle of the line: Gauss-weighted, or the plain weighted mean of the thesis.");
+  schema.integer("laser.threshold", laser.threshold, {.unit = "grey levels", .min = 1, .max = 254},
+                 "Colour excess that a pixel of the line has at least.");
+  schema.number("laser.relative_threshold", laser.relative_threshold, {.min = 0, .max = 0.95},
+                "And at least this share of the picture's largest excess; 0: off.");
+  schema.number("laser.min_snr", laser.min_snr, {.min = 0, .max = 1000},
+                "Peak over the picture's noise, at least.");
+  schema.number("laser.max_width", laser.max_width, {.unit = "px", .min = 1, .max = 4096},
+                "A broader band of light is no line.");
+  schema.integer("laser.min_run", laser.min_run, {.unit = "profiles", .min = 1, .max = 4096},
+                 "A shorter connected piece is a glint.");
+}
+
+void declare_reconstruct(ConfigSchema& schema, AcquireOptions& options) {
+  schema.section("reconstruct", "From the line to points.");
+  schema.text("reconstruct.calibration", options.calibration,
+              "Calibration file, \"thesis-camera-i\" or \"thesis-camera-ii\"; empty: the twin's own.");
+  LineReconstructorOptions& r = options.reconstruct;
+  schema.number("reconstruct.min_depth_mm", r.min_depth_mm, {.unit = "mm", .min = 0, .max = 10000},
+                "Nearer points are dropped and counted.");
+  schema.number("reconstruct.max_depth_mm", r.max_depth_mm, {.unit = "mm", .min = 0.1, .max = 10000},
+                "Farther points are dropped and counted.");
+  schema.number("reconstruct.centre_noise_px", r.centre_noise_px, {.unit = "px", .min = 0, .max = 10},
+                "Noise of the line's middle beyond the camera's own noise (speckle, texture).");
+}
+
+void declare_twin(ConfigSchema& schema, TwinChoice& twin) {
+  schema.section("twin", "The simulated instrument; used where a source is \"twin\".");
+  schema.integer("twin.seed", twin.seed, {.min = 0}, "Same seed, same bytes.");
+  schema.text("twin.phantom", twin.phantom, "condyle, plane, cylinder-DIAMETER or mini-knee.");
+  schema.choice("twin.scenario", twin.scenario, {"demo", "sweeps", "spots", "still"},
+                "What the operator's hand does.");
+  schema.choice("twin.noise", twin.noise, {"ideal", "manufacturer", "thesis"}, "How camera and tracker err.");
+  schema.number("twin.duration_s", twin.duration_s, {.unit = "s", .min = 0, .max = 1e6},
+                "End of the experiment; 0: never.");
+  schema.path("twin.truth", twin.truth, "File to which the truth is written (JSON); empty: nowhere.");
+}
+
+Result<void> roles_apart(const StationRoles& r) {
+  const auto same = [](int a, int b) { return a >= 0 && a == b; };
+  if (same(r.endoscope, r.object) || same(r.endoscope, r.harvester) || same(r.object, r.harvester)) {
+    return fail(ErrorCode::invalid, fmt::format("two tools share a station (endoscope {}, object {}, "
+                                                "harvester {}): give each its own in [tracker]",
+                                                r.endoscope, r.object, r.harvester));
+  }
+  if (r.endoscope < 0)
+    return fail(ErrorCode::invalid,
+                "tracker.endoscope_station is -1: without the endoscope's pose no point can be placed");
+  return {};
+}
+
+}  // namespace
+
+void declare(ConfigSchema& schema, AcquireOptions& options) {
+  declare_run(schema, options.run);
+  declare_camera(schema, options.camera);
+  declare_tracker(schema, options.tracker);
+  declare_laser(schema, options.laser);
+  declare_reconstruct(schema, options);
+  declare_twin(schema, options.twin);
+}
+
+Result<void> validate(const AcquireOptions& options) {
+  if (auto segment = validate(SegmentOptions{.name = options.run.segment, .group = options.run.group});
+      !segment)
+    return segment;
+  if ((options.camera.source == "twin") != (options.tracker.source == "twin")) {
+    return fail(
+        ErrorCode::invalid,
+        "camera and tracker of the twin belong to one experiment: choose \"twin\" for both or for neither");
+  }
+  if (options.camera.source != "twin" && options.calibration.empty()) {
+    return fail(ErrorCode::invalid,
+                "no calibration: give --calibration FILE (or thesis-camera-i, thesis-camera-ii) for pictures "
+                "that are not the twin's");
+  }
+  if (auto roles = roles_apart(options.tracker.roles); !roles) return roles;
+  if (auto laser = validate(options.laser); !laser) return laser;
+  if (auto reconstruct = validate(options.reconstruct); !reconstruct) return reconstruct;
+  return validate(options.tracker.history);
+}
+
+}  // namespace linescope

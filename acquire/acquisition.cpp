@@ -1,0 +1,29 @@
+#include "acquire/acquisition.hpp"
+
+namespace linescope {
+
+Acquisition::Acquisition(const AcquireOptions& options, Sources given, LineReconstructor reconstructor,
+                         SegmentWriter& writer, std::atomic<bool>& stop_flag)
+    : run(options.run),
+      longest_wait(options.tracker.longest_wait),
+      sources(std::move(given)),
+      stop(stop_flag),
+      history(options.tracker.history),
+      poses(history, options.tracker.roles, options.tracker.longest_wait),
+      scan(writer),
+      desk(writer, scan, *sources.camera, stop),
+      state(*sources.camera, sources.tracker.get(), writer),
+      pipeline(options.laser, std::move(reconstructor), poses, writer) {
+  if (sources.tracker)
+    intake = std::make_unique<PoseIntake>(*sources.tracker, options.tracker.roles, history, writer);
+}
+
+Result<std::unique_ptr<Acquisition>> Acquisition::create(const AcquireOptions& options, Sources sources,
+                                                         SegmentWriter& writer, std::atomic<bool>& stop) {
+  auto reconstructor = LineReconstructor::create(sources.calibration, options.reconstruct);
+  if (!reconstructor) return tl::unexpected(reconstructor.error());
+  return std::unique_ptr<Acquisition>(
+      new Acquisition(options, std::move(sources), std::move(*reconstructor), writer, stop));
+}
+
+}  // namespace linescope

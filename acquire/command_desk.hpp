@@ -1,0 +1,36 @@
+// What viewers may ask of the daemon, and its answers. Belongs to the line's thread.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "acquire/camera/camera_source.hpp"
+#include "acquire/scan_control.hpp"
+#include "acquire/scan_saver.hpp"
+#include "ipc/control.hpp"
+
+namespace linescope {
+
+class CommandDesk {
+ public:
+  /// `stop` is set by the command shut down. All references must outlive the desk.
+  CommandDesk(SegmentWriter& writer, ScanControl& scan, CameraSource& camera, std::atomic<bool>& stop);
+
+  /// Carries out whatever is waiting; never waits itself.
+  void attend(Nanoseconds now);
+
+ private:
+  CommandAnswer carry_out(const ReceivedCommand& command, Nanoseconds now);
+  CommandAnswer save(const ReceivedCommand& command);
+  CommandAnswer expose(double milliseconds);
+  void finish_save();
+
+  ScanControl& scan_;
+  CameraSource& camera_;
+  std::atomic<bool>& stop_;
+  ControlServer server_;
+  ScanSaver saver_;
+  CommandId saving_ = 0;
+};
+
+}  // namespace linescope

@@ -1,0 +1,99 @@
+#include "acquire/state_report.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace linescope {
+namespace {
+
+constexpr Nanoseconds kReportEvery = 100 * kMillisecond;
+
+ToolState tool_state(CameraState state) {
+  switch (state) {
+    case CameraState::ok:
+      return ToolState::ok;
+    case CameraState::disconnected:
+      return ToolState::disconnected;
+    case CameraState::ended:
+      return ToolState::stale;
+    case CameraState::not_started:
+    case CameraState::waiting:
+      break;
+  }
+  return ToolState::never_seen;
+}
+
+std::pair<DaemonState, std::string> daemon_state(const CameraStatus& camera, const TrackerSource* tracker,
+                                                 const SegmentWriter& writer) {
+  if (camera.state == CameraState::disconnected) return {DaemonState::camera_lost, camera.reason};
+  if (tracker != nullptr && tracker->live()) {
+    TrackerStatus status = tracker->status();
+    if (!status.delivering) return {DaemonState::tracker_lost, std::move(status.sentence)};
+  }
+  if (writer.full()) return {DaemonState::full, "the segment is full: save, then clear or begin a new scan"};
+  if (camera.state == CameraState::ended) return {DaemonState::idle, "the recording is through"};
+  return {writer.scanning() ? DaemonState::scanning : DaemonState::idle, {}};
+}
+
+}  // namespace
+
+StateReport::StateReport(const CameraSource& camera, const TrackerSource* tracker, SegmentWriter& writer)
+    : camera_(camera), tracker_(tracker), writer_(writer) {
+  report_.name = camera.description();
+  const Nanoseconds period = camera.period();
+  report_.nominal_hz = period > 0 ? static_cast<float>(1e9 / static_cast<double>(period)) : 0;
+}
+
+void StateReport::note(const Error& error) {
+  complaint_ = error.message;
+  spdlog::warn("camera: {}", error.message);
+}
+
+void StateReport::frame(const Frame& frame) {
+  ++report_.frames;
+  report_.last_good = frame.time;
+  report_.width = static_cast<std::uint32_t>(frame.bgr.cols);
+  report_.height = static_cast<std::uint32_t>(frame.bgr.rows);
+}
+
+void StateReport::update(Nanoseconds now) {
+  // The camera's status holds text: it is looked at ten times a second, not once per picture.
+  const bool due = now - last_report_ >= kReportEvery;
+  if (!due && state_ != DaemonState::starting && writer_.scanning() == (state_ == DaemonState::scanning))
+    return;
+  const CameraStatus status = camera_.status();
+  report_camera(status, now);
+  report_daemon(status);
+  count_losses(status.counters);
+  last_report_ = now;
+}
+
+void StateReport::report_camera(const CameraStatus& status, Nanoseconds now) {
+  report_.time = now;
+  report_.state = tool_state(status.state);
+  report_.reason = status.reason.empty() ? complaint_ : status.reason;
+  writer_.set_camera_status(report_);
+}
+
+void StateReport::report_daemon(const CameraStatus& status) {
+  auto [state, reason] = daemon_state(status, tracker_, writer_);
+  if (state == state_ && reason == reason_) return;
+  spdlog::info("{}{}{}", name(state), reason.empty() ? "" : ": ", reason);
+  state_ = state;
+  reason_ = std::move(reason);
+  writer_.set_state(state_, reason_);
+}
+
+void StateReport::count_losses(const CameraCounters& now) {
+  const auto add = [&](Counter counter, std::uint64_t CameraCounters::*field) {
+    if (now.*field > counted_.*field) writer_.count(counter, now.*field - counted_.*field);
+  };
+  add(Counter::frames_unreadable, &CameraCounters::unreadable);
+  add(Counter::frames_wrong_size, &CameraCounters::mismatched);
+  add(Counter::frames_overrun, &CameraCounters::overrun);
+  add(Counter::camera_reconnects, &CameraCounters::disconnected);
+  counted_ = now;
+}
+
+}  // namespace linescope

@@ -1,0 +1,42 @@
+// What the daemon says of itself and of its camera. Belongs to the line's thread.
+#pragma once
+
+#include <string>
+
+#include "acquire/camera/camera_source.hpp"
+#include "acquire/tracker/tracker_source.hpp"
+#include "ipc/segment_writer.hpp"
+
+namespace linescope {
+
+class StateReport {
+ public:
+  /// `tracker` may be null. All references must outlive the report.
+  StateReport(const CameraSource& camera, const TrackerSource* tracker, SegmentWriter& writer);
+
+  /// A picture that could not be used.
+  void note(const Error& error);
+
+  /// Publishes what changed, and the camera's state at least every 100 ms; call it often.
+  void update(Nanoseconds now);
+
+  /// A good picture arrived.
+  void frame(const Frame& frame);
+
+ private:
+  void report_camera(const CameraStatus& status, Nanoseconds now);
+  void report_daemon(const CameraStatus& status);
+  void count_losses(const CameraCounters& now);
+
+  const CameraSource& camera_;
+  const TrackerSource* tracker_;
+  SegmentWriter& writer_;
+  CameraReport report_;
+  CameraCounters counted_;
+  std::string complaint_;
+  DaemonState state_ = DaemonState::starting;
+  std::string reason_;
+  Nanoseconds last_report_ = 0;
+};
+
+}  // namespace linescope
