@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 namespace linescope {
 namespace {
+
+struct Chosen {
+  Eigen::Vector3d point;
+  double cost;
+};
 
 struct Search {
   std::span<const Eigen::Vector3f> points;
@@ -22,15 +28,15 @@ struct Search {
   }
 
   /// The best point whose sides to the vertices found so far are allowed.
-  std::optional<Eigen::Vector3d> next(std::span<const Eigen::Vector3d> found) const {
-    std::optional<Eigen::Vector3d> best;
+  std::optional<Chosen> next(std::span<const Eigen::Vector3d> found) const {
+    std::optional<Chosen> best;
     double best_cost = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3f& candidate : points) {
       const Eigen::Vector3d p = candidate.cast<double>();
       const double cost_here = cost(p, found, best_cost);
       if (cost_here < best_cost) {
         best_cost = cost_here;
-        best = p;
+        best = Chosen{p, cost_here};
       }
     }
     return best;
@@ -81,7 +87,8 @@ InscribedTriangle inscribed_triangle(std::span<const Eigen::Vector3f> points, co
   for (std::size_t i = 0; i < 3; ++i) {
     const auto vertex = search.next(std::span(result.vertices).first(i));
     if (!vertex) return fallback(view);
-    result.vertices[i] = *vertex;
+    result.vertices[i] = vertex->point;
+    result.worst_cost = std::max(result.worst_cost, vertex->cost);
   }
   const auto& [s1, s2, s3] = result.vertices;
   const Eigen::Vector3d n = (s2 - s1).cross(s3 - s2);

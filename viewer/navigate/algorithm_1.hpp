@@ -29,6 +29,7 @@ Result<void> validate(const Algorithm1Options& options);
 struct InscribedTriangle {
   bool found = false;                         ///< false: `normal` is the fallback k of Eq 5.4
   std::array<Eigen::Vector3d, 3> vertices{};  ///< S1, S2, S3
+  double worst_cost = 0;                      ///< largest of the three vertices' costs, mm
   Eigen::Vector3d normal{0, 0, 1};            ///< unit, out of the surface: against the viewing direction
 };
 

@@ -10,28 +10,25 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "common/result.hpp"
 #include "viewer/navigate/algorithm_1.hpp"
+#include "viewer/navigate/live_index.hpp"
 #include "viewer/navigate/normal_estimate.hpp"
+#include "viewer/navigate/robust_normal.hpp"
 
 namespace linescope {
 
 struct NormalEstimatorOptions {
   NormalMethod method = NormalMethod::robust;  ///< what `estimate` without a method uses
   Algorithm1Options algorithm_1;
+  RobustNormalOptions robust;
+  LiveIndexOptions index;
 };
 
 /// The first fault of the options, in one sentence.
 Result<void> validate(const NormalEstimatorOptions& options);
-
-/// What happened to the points that came in, since the last clear.
-struct IndexCounts {
-  std::uint64_t lines = 0;           ///< taken
-  std::uint64_t points = 0;          ///< taken
-  std::uint64_t lines_rejected = 0;  ///< no usable point, or a viewing direction that is none
-  std::uint64_t points_not_finite = 0;
-};
 
 class NormalEstimator {
  public:
@@ -48,6 +45,10 @@ class NormalEstimator {
 
   NormalEstimate estimate(const NormalQuery& query) const;
   NormalEstimate estimate(const NormalQuery& query, NormalMethod method) const;
+
+  /// The plain normal at a place: plane through the points near by, no uncertainty and no judgement (target
+  /// T13).
+  std::optional<FittedPlane> plane_near(const Eigen::Vector3d& place) const;
 
   IndexCounts counts() const;
 

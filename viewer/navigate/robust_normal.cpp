@@ -1,0 +1,176 @@
+#include "viewer/navigate/robust_normal.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "viewer/navigate/angle_difference.hpp"
+#include "viewer/navigate/angle_interval.hpp"
+
+namespace linescope {
+namespace {
+
+Eigen::Vector3d normal_of(const Eigen::Vector2d& slope) {
+  return Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
+}
+
+/// Where a straight line (local frame) meets the surface, by Newton's method from its foot on the tangent
+/// plane.
+std::optional<Eigen::Vector3d> meet(const Cubic& surface, const Eigen::Vector3d& tip,
+                                    const Eigen::Vector3d& axis, double reach) {
+  double t = -tip.z() / axis.z();
+  for (int round = 0; round < 8; ++round) {
+    const Eigen::Vector3d p = tip + t * axis;
+    if (!(p.head<2>().norm() < reach)) return std::nullopt;
+    const double miss = p.z() - surface.height(p.x(), p.y());
+    const double rate = axis.z() - surface.slope(p.x(), p.y()).dot(axis.head<2>());
+    if (!(rate > 0.05)) return std::nullopt;
+    t -= miss / rate;
+    if (std::abs(miss) < 1e-9) break;
+  }
+  return tip + t * axis;
+}
+
+/// Nearest point of the surface: the tip is straight above it along the normal there.
+std::optional<Eigen::Vector3d> nearest(const Cubic& surface, const Eigen::Vector3d& tip, double reach) {
+  Eigen::Vector2d at = tip.head<2>();
+  for (int round = 0; round < 30; ++round) {
+    if (!(at.norm() < reach)) return std::nullopt;
+    const double above = tip.z() - surface.height(at.x(), at.y());
+    const Eigen::Vector2d next = tip.head<2>() + above * surface.slope(at.x(), at.y());
+    const Eigen::Vector2d step = next - at;
+    at += 0.7 * step;  // damped: the plain step swings when the tip is high above a curved surface
+    if (step.norm() < 1e-9) break;
+  }
+  return Eigen::Vector3d(at.x(), at.y(), surface.height(at.x(), at.y()));
+}
+
+class Estimation {
+ public:
+  Estimation(const LiveIndex& index, const NormalQuery& query, const RobustNormalOptions& options)
+      : index_(index), query_(query), options_(options), axis_(query.axis.normalized()) {}
+
+  NormalEstimate run() {
+    result_.method = NormalMethod::robust;
+    if (!query_.tip.allFinite() || !axis_.allFinite() || !(axis_.norm() > 0.5) ||
+        !index_.grid().holds(query_.tip))
+      return refuse(NormalReason::bad_query);
+    const FoundFoot found = find_foot(index_, query_.tip, axis_, options_.foot);
+    if (found.reason != NormalReason::none) return refuse(found.reason);
+    fit(PatchFrame(found.foot, found.normal), options_.radius);
+    if (result_.reason != NormalReason::none) return result_;
+    place();
+    return result_;
+  }
+
+ private:
+  NormalEstimate refuse(NormalReason reason) {
+    result_.reason = reason;
+    return result_;
+  }
+
+  void fit(const PatchFrame& frame, double radius) {
+    gather(index_, frame, radius, options_.height, patch_);
+    quadric_ = fit_robust_quadric(patch_, options_.robust);
+    const double wanted = std::clamp(options_.curvature_reach / std::max(quadric_.curvature(), 1e-6),
+                                     options_.smallest_radius, radius);
+    if (wanted < 0.85 * radius) {
+      shrink(patch_, wanted);
+      quadric_ = fit_robust_quadric(patch_, options_.robust);
+    }
+    const Support support = judge_support(patch_, query_.now, options_.support);
+    result_.counts = support.counts;
+    result_.age = support.counts.points > 0 ? query_.now - support.newest : 0;
+    result_.radius_of_fit = patch_.radius;
+    result_.reason = support.reason;
+    if (support.reason == NormalReason::none) solution_ = solve_patch(patch_, quadric_, options_.solution);
+    if (support.reason == NormalReason::none && !solution_.solved)
+      result_.reason = NormalReason::too_uncertain;
+  }
+
+  /// Foot, normals and distances on the solved surface.
+  void place() {
+    const PatchFrame& frame = patch_.frame;
+    const Eigen::Vector3d tip = frame.point_in(query_.tip);
+    const Eigen::Vector3d axis = frame.direction_in(axis_);
+    const auto foot = meet(solution_.surface, tip, axis, patch_.radius);
+    if (!foot) {
+      result_.reason = NormalReason::axis_misses_surface;
+      return;
+    }
+    const Eigen::Vector3d normal = normal_of(solution_.surface.slope(foot->x(), foot->y()));
+    result_.foot = frame.point_out(*foot);
+    result_.normal = frame.direction_out(normal);
+    result_.depth = (tip - *foot).dot(axis);
+    if (const auto near = nearest(solution_.surface, tip, patch_.radius)) {
+      const Eigen::Vector3d there = normal_of(solution_.surface.slope(near->x(), near->y()));
+      result_.nearest = frame.point_out(*near);
+      result_.nearest_normal = frame.direction_out(there);
+      result_.distance = (tip - *near).dot(there);
+    }
+    judge_angle(normal, axis);
+  }
+
+  void judge_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& axis) {
+    TiltError error{solution_.slope_covariance, solution_.degrees_of_freedom};
+    error.covariance.diagonal().array() += options_.unseen_tilt * options_.unseen_tilt;
+    result_.normal_uncertainty = cone_95(error);
+    const double moved = options_.tip_deviation * quadric_.curvature();
+    error.covariance.diagonal().array() += options_.axis_tilt * options_.axis_tilt + moved * moved;
+    result_.angle = angle_difference(normal, axis);
+    const Eigen::Vector2d across = (axis - axis.dot(normal) * normal).head<2>();
+    const Eigen::Vector2d tilt =
+        across.norm() > 0 ? Eigen::Vector2d(across.normalized() * result_.angle) : across;
+    const AngleInterval interval = angle_interval_95(tilt, error);
+    result_.angle_low = interval.low;
+    result_.angle_high = interval.high;
+    if (!(result_.normal_uncertainty <= options_.support.largest_uncertainty))
+      result_.reason = NormalReason::too_uncertain;
+  }
+
+  const LiveIndex& index_;
+  const NormalQuery& query_;
+  const RobustNormalOptions& options_;
+  Eigen::Vector3d axis_;
+  NormalEstimate result_;
+  Patch patch_;
+  Quadric quadric_;
+  PatchSolution solution_;
+};
+
+}  // namespace
+
+Result<void> validate(const RobustNormalOptions& o) {
+  if (!(o.smallest_radius >= 0.5 && o.radius >= o.smallest_radius && o.radius <= 20))
+    return fail(ErrorCode::invalid,
+                fmt::format("normal estimate: patch radii {} and {} mm are not in order within 0.5 to 20 mm",
+                            o.smallest_radius, o.radius));
+  if (!(o.height > 0))
+    return fail(ErrorCode::invalid, "normal estimate: height of the patch must be positive");
+  if (!(o.curvature_reach > 0))
+    return fail(ErrorCode::invalid, "normal estimate: curvature reach must be positive");
+  if (!(o.unseen_tilt >= 0 && o.axis_tilt >= 0 && o.tip_deviation >= 0))
+    return fail(ErrorCode::invalid,
+                "normal estimate: standard deviations of tilts and tip must not be negative");
+  if (o.robust.rounds < 2 || !(o.robust.cut > 0) || !(o.robust.smallest_scale > 0))
+    return fail(ErrorCode::invalid,
+                "normal estimate: robust fit needs 2 rounds or more, a positive cut and a positive scale");
+  if (!(o.foot.reach_ahead >= 0 && o.foot.reach_behind >= 0))
+    return fail(ErrorCode::invalid, "normal estimate: reaches along the axis must not be negative");
+  if (o.support.fewest_points < 6 || o.support.fewest_lines < 3)
+    return fail(ErrorCode::invalid,
+                "normal estimate: at least 6 points and 3 lines are needed for a curved surface");
+  if (!(o.support.largest_uncertainty > 0) || o.support.oldest <= 0)
+    return fail(ErrorCode::invalid, "normal estimate: limits of uncertainty and age must be positive");
+  return {};
+}
+
+NormalEstimate robust_normal(const LiveIndex& index, const NormalQuery& query,
+                             const RobustNormalOptions& options) {
+  return Estimation(index, query, options).run();
+}
+
+}  // namespace linescope
