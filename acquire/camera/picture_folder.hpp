@@ -10,8 +10,8 @@
 namespace linescope {
 
 struct PictureFolderOptions {
-  std::filesystem::path folder;  ///< png, jpg, bmp, tif, pgm, ppm, webp; other files are passed over
-  Nanoseconds start_time = 0;    ///< time of the first picture
+  std::filesystem::path folder = {};  ///< png, jpg, bmp, tif, pgm, ppm, webp; other files are passed over
+  Nanoseconds start_time = 0;         ///< time of the first picture
   Nanoseconds period = 40 * kMillisecond;  ///< between two pictures
   int width = 0;                           ///< px expected; 0: the size of the first readable picture
   int height = 0;                          ///< px expected; 0: likewise

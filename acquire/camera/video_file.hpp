@@ -10,7 +10,7 @@
 namespace linescope {
 
 struct VideoFileOptions {
-  std::filesystem::path file;
+  std::filesystem::path file = {};
   Nanoseconds start_time = 0;  ///< time of the first picture
   Nanoseconds period = 0;      ///< between two pictures; 0: the time stamps of the file
   int width = 0;               ///< px expected; 0: whatever the file has
