@@ -30,7 +30,7 @@ void declare_camera(ConfigSchema& schema, CameraChoice& camera) {
       "\"twin\", a folder of pictures, a video file, or a camera: its path, its index, or part of its name.");
   schema.number("camera.file_rate_hz", camera.file_rate_hz, {.unit = "Hz", .min = 0.1, .max = 1000},
                 "Pictures per second of a folder; a video brings its own.");
-  DeviceCameraOptions& device = camera.device;
+  V4l2Options& device = camera.device;
   schema.integer("camera.width", device.width, {.unit = "px", .min = 16, .max = 8192},
                  "Picture width asked of a camera.");
   schema.integer("camera.height", device.height, {.unit = "px", .min = 16, .max = 8192},
@@ -75,10 +75,12 @@ void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
       "laser.centre", laser.centre,
       {{"gauss-weighted", CentreMethod::gauss_weighted}, {"weighted-mean", CentreMethod::weighted_mean}},
       "Middle of the line: Gauss-weighted, or the plain weighted mean of the thesis.");
-  schema.integer("laser.threshold", laser.threshold, {.unit = "grey levels", .min = 1, .max = 254},
-                 "Colour excess that a pixel of the line has at least.");
+  schema.integer("laser.colour_threshold", laser.colour_threshold, {.unit = "grey levels", .min = 1, .max = 254},
+                 "Colour excess from which a pixel may belong to the line.");
+  schema.integer("laser.ridge_threshold", laser.ridge_threshold, {.unit = "grey levels", .min = 0, .max = 254},
+                 "Or this much brighter than both sides in the laser's channel; 0: off.");
   schema.number("laser.relative_threshold", laser.relative_threshold, {.min = 0, .max = 0.95},
-                "And at least this share of the picture's largest excess; 0: off.");
+                "Peak over the strong peaks of the same picture, at least; 0: off.");
   schema.number("laser.min_snr", laser.min_snr, {.min = 0, .max = 1000},
                 "Peak over the picture's noise, at least.");
   schema.number("laser.max_width", laser.max_width, {.unit = "px", .min = 1, .max = 4096},

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "acquire/camera/device_camera.hpp"
+#include "acquire/camera/v4l2_device.hpp"
 #include "acquire/laser/line_extractor_options.hpp"
 #include "acquire/reconstruct/line_reconstructor.hpp"
 #include "acquire/tracker/pose_history.hpp"
@@ -38,7 +38,7 @@ struct RunOptions {
 
 struct CameraChoice {
   std::string source = "twin";  ///< "twin", a folder, a video file, or a camera
-  DeviceCameraOptions device;
+  V4l2Options device;
   double file_rate_hz = 30;  ///< pictures per second of a folder
 };
 

@@ -14,6 +14,8 @@ void count_profile(SegmentWriter& writer, NoPoint reason, std::uint64_t n) {
     case NoPoint::no_light:
     case NoPoint::bad_picture:
       return;
+    case NoPoint::wrong_colour:
+      return writer.count(Counter::points_too_weak, n);
     case NoPoint::too_dim:
       return writer.count(Counter::points_low_snr, n);
     case NoPoint::too_narrow:
@@ -160,7 +162,7 @@ void LinePipeline::place(const Frame& frame) {
 }
 
 void LinePipeline::publish_line(const Frame& frame, const ToolPoses& poses) {
-  LineInfo info;
+  ScanLineInfo info;
   info.time = instant(frame);
   info.frame = frame.index;
   info.endoscope = poses.endoscope;

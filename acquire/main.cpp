@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "acquire/camera/device_camera.hpp"
+#include "acquire/camera/camera_list.hpp"
 #include "acquire/daemon.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ int list_devices() {
   if (cameras.empty()) std::puts("no camera: no /dev/video* on this machine");
   for (const auto& camera : cameras)
     std::printf("camera %s  %s  %s\n", camera.path.c_str(), camera.name.c_str(),
-                camera.usable ? "usable" : camera.obstacle.c_str());
+                camera.usable() ? "usable" : camera.obstacle.c_str());
   return 0;
 }
 
