@@ -152,12 +152,10 @@ TEST(CubeTable, NoCrackBetweenAnyTwoNeighbouringCubes) {
           continue;
         ++pairs;
         std::map<std::pair<int, int>, int> open;
-        for (const auto& [edge, count] : border_of(low))
-          if (on_upper_face(edge.first) && on_upper_face(edge.second))
-            open[{edge_shift(edge.first), edge_shift(edge.second)}] += count;
-        for (const auto& [edge, count] : border_of(high))
-          if (on_lower_face(edge.first) && on_lower_face(edge.second))
-            open[{edge.second, edge.first}] -= count;
+        for (const auto& [a, b] : borders[static_cast<std::size_t>(low)])
+          if (on_upper_face(a) && on_upper_face(b)) ++open[{edge_shift(a), edge_shift(b)}];
+        for (const auto& [a, b] : borders[static_cast<std::size_t>(high)])
+          if (on_lower_face(a) && on_lower_face(b)) --open[{b, a}];
         for (const auto& [edge, count] : open)
           ASSERT_EQ(count, 0) << low << " beside " << high << " along " << axis;
       }
