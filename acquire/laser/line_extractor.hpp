@@ -13,8 +13,8 @@
 
 namespace linescope {
 
-/// Keeps its working memory from picture to picture: after the first picture of a size nothing is allocated.
-/// One thread per extractor; the result of a picture does not depend on the pictures before it.
+/// Keeps its working memory from picture to picture: once it has seen the busiest picture of a size nothing
+/// is allocated. One thread per extractor; the result of a picture does not depend on the pictures before it.
 class LineExtractor {
  public:
   /// Precondition: validate(options) holds.
@@ -23,8 +23,9 @@ class LineExtractor {
   LineExtractor(LineExtractor&&) noexcept;
   LineExtractor& operator=(LineExtractor&&) noexcept;
 
-  /// `picture`: 8-bit BGR or 8-bit grey, any size from 16x16 to 16384x16384, any stride. Anything else gives
-  /// an empty line counted under NoPoint::bad_picture. The reference is good until the next call.
+  /// `picture`: 8-bit BGR or 8-bit grey, 16x16 to 16384x16384, any stride. Anything else gives an empty line,
+  /// all of whose profiles are counted as NoPoint::bad_picture (one for an empty picture). Good until the
+  /// next call.
   const ExtractedLine& extract(const cv::Mat& picture);
 
   const LineExtractorOptions& options() const;

@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -21,44 +20,49 @@
 namespace linescope {
 
 struct LineReconstructorOptions {
-  double min_depth_mm = 0.1;   ///< along the optical axis; nearer points are counted as out_of_range
-  double max_depth_mm = 1000;  ///< farther points are counted as out_of_range
-  double centre_noise_px =
-      0.1;  ///< line noise that is not camera noise (speckle, texture): added in squares to what SNR gives
+  double min_depth_mm = 0.1;  ///< along the optical axis; nearer points are counted as out_of_range; 0 .. max
+  double max_depth_mm = 1000;  ///< farther points are counted as out_of_range; at most 100000
+  double line_noise_px = 0.1;  ///< what shakes the line's middle besides camera noise (speckle, texture):
+                               ///< added in squares to what the signal-to-noise ratio gives; 0 .. 100
 };
 Result<void> validate(const LineReconstructorOptions& options);
 
 /// Why a sample of the line gave no point.
 enum class NoSurface : std::uint8_t {
-  outside_lens,  ///< the pixel lies where the lens distortion cannot be inverted
+  not_finite,    ///< the sample itself is not a number
+  outside_lens,  ///< the pixel lies outside the picture or where the lens distortion cannot be inverted
   behind,        ///< the ray runs along the laser surface or meets it behind the camera
   out_of_range,  ///< nearer than min_depth_mm or farther than max_depth_mm
-  not_finite,    ///< the sample itself is not a number
 };
 inline constexpr std::size_t kNoSurfaceReasons = 4;
 std::string_view name(NoSurface reason);
 
+using NoSurfaceCounts = std::array<std::uint32_t, kNoSurfaceReasons>;
+
 struct ReconstructedLine {
   std::vector<SurfacePoint> points;     ///< world, mm
   std::vector<Eigen::Vector2f> pixels;  ///< of points[i]: u, v
-  std::array<std::uint32_t, kNoSurfaceReasons> no_surface{};
-  Eigen::Vector3f camera_in_world{0, 0, 0};    ///< centre of the camera, mm
-  Eigen::Vector3f viewing_direction{0, 0, 1};  ///< unit; mean direction from the camera to the points, world
+  NoSurfaceCounts no_surface{};         ///< samples without a point; points and these add up to the samples
+  Eigen::Vector3f camera_in_world{0, 0, 0};  ///< centre of the camera, mm
+  Eigen::Vector3f viewing_direction{
+      0, 0, 1};  ///< unit; from the camera to the middle of the points (no points: its axis), world
 
   std::uint32_t count(NoSurface reason) const { return no_surface[static_cast<std::size_t>(reason)]; }
 };
 
-/// Holds a table of rays for every pixel of the calibration's picture size. Immutable after creation: one
-/// object may serve several threads, each with its own `out`.
+/// Holds a table of rays for every pixel of the calibration's picture size (2.5 MB at 640x480). Immutable
+/// after creation: one object may serve several threads, each with its own `out`; copies share the table.
 class LineReconstructor {
  public:
   /// Fails with the sentence of validate(calibration) or validate(options).
   static Result<LineReconstructor> create(const Calibration& calibration,
                                           const LineReconstructorOptions& options);
 
-  /// Fills `out` (capacity is kept, so nothing is allocated once it has seen the longest line). Fails with
-  /// `mismatch` when the line comes from a picture of another size, and with `invalid` when the pose is not
-  /// finite; `out` is then empty.
+  /// Fills `out` (its capacity is kept, so nothing is allocated once it has seen the longest line). A point's
+  /// standard deviation is along the viewing ray: noise of the line's middle (Cramer-Rao bound at the
+  /// sample's width and signal-to-noise ratio, and line_noise_px) times the change of depth per px. Fails
+  /// with `mismatch` when the line comes from a picture of another size, and with `invalid` when the pose is
+  /// not finite; `out` is then empty.
   Result<void> reconstruct(const ExtractedLine& line, const Rigid<World, Endoscope>& world_from_endoscope,
                            ReconstructedLine& out) const;
 

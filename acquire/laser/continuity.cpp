@@ -1,0 +1,67 @@
+#include "acquire/laser/continuity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace linescope {
+namespace {
+
+/// How badly b continues a, 0 best, 1 at the limit; broad lines are allowed broader steps.
+float misfit(const Candidate& a, const Candidate& b, const LineExtractorOptions& options) {
+  const auto steps = static_cast<float>(b.profile - a.profile);
+  const float allowed =
+      std::max(static_cast<float>(options.max_step), 0.5F * std::max(a.sigma, b.sigma)) * steps;
+  return std::abs(b.centre - a.centre) / allowed + 0.1F * (steps - 1);
+}
+
+}  // namespace
+
+/// Connects the candidates of one profile to those before it, best fit first; nothing is continued twice.
+void Continuity::extend(CandidateList& list, int profile, const LineExtractorOptions& options) {
+  Candidate* const begin = list.begin_of(profile);
+  Candidate* const end = list.end_of(profile);
+  for (;;) {
+    Candidate* best = nullptr;
+    const Candidate* from = nullptr;
+    float least = 1.0F;
+    for (Candidate* c = begin; c != end; ++c) {
+      if (!c->good || c->piece >= 0) continue;
+      for (int p = profile - 1; p >= std::max(0, profile - 1 - options.max_gap); --p) {
+        for (const Candidate* a = list.begin_of(p); a != list.end_of(p); ++a) {
+          if (!a->good || continued_[static_cast<std::size_t>(a - list.all.data())] != 0) continue;
+          const float m = misfit(*a, *c, options);
+          if (m < least) least = m, best = c, from = a;
+        }
+        if (from != nullptr) break;
+      }
+    }
+    if (best == nullptr) break;
+    best->piece = from->piece;
+    continued_[static_cast<std::size_t>(from - list.all.data())] = 1;
+  }
+  for (Candidate* c = begin; c != end; ++c) {
+    if (!c->good) continue;
+    if (c->piece < 0) {
+      c->piece = pieces();
+      pieces_.push_back({});
+    }
+    Piece& piece = pieces_[static_cast<std::size_t>(c->piece)];
+    ++piece.count;
+    piece.peaks += c->peak;
+  }
+}
+
+void Continuity::link(CandidateList& list, int profiles, const LineExtractorOptions& options) {
+  pieces_.clear();
+  continued_.assign(list.all.size(), 0);
+  for (int p = 0; p < profiles; ++p) extend(list, p, options);
+  for (Candidate& c : list.all) {
+    if (!c.good) continue;
+    const Piece& piece = pieces_[static_cast<std::size_t>(c.piece)];
+    const double length = std::min(1.0, piece.count / (3.0 * options.min_run));
+    c.support = static_cast<float>(0.5 * length * (c.peak + piece.peaks / piece.count));
+    if (piece.count < options.min_run) c.reject(NoPoint::isolated);
+  }
+}
+
+}  // namespace linescope

@@ -1,0 +1,86 @@
+#include "acquire/laser/line_mask.hpp"
+
+#include <algorithm>
+
+#include "acquire/laser/line_mask_detail.hpp"
+
+namespace linescope {
+namespace {
+
+int excess(const std::uint8_t* bgr, unsigned on) {
+  int shines = 255, dark = 0;
+  for (unsigned c = 0; c < 3; ++c) {
+    if (on >> c & 1U)
+      shines = std::min<int>(shines, bgr[c]);
+    else
+      dark = std::max<int>(dark, bgr[c]);
+  }
+  return shines - dark;
+}
+
+bool marked(const std::uint8_t* pixel, int lead, const MaskRule& rule, const mask_detail::Sides& sides) {
+  if (rule.colour_threshold < 256 && excess(pixel, rule.on) >= rule.colour_threshold) return true;
+  if (!sides.any()) return false;
+  const int around = std::max<int>(pixel[lead + sides.before], pixel[lead + sides.after]);
+  return pixel[lead] - around >= rule.ridge_threshold;
+}
+
+}  // namespace
+
+namespace mask_detail {
+
+Sides sides_of_group(const PictureView& p, const MaskRule& rule, int y, int x) {
+  Sides s;
+  if (!rule.ridge()) return s;
+  const bool column = rule.axis == ProfileAxis::column;
+  const std::ptrdiff_t offset = column ? p.stride * rule.reach : std::ptrdiff_t{p.channels} * rule.reach;
+  const bool before = column ? y >= rule.reach : x >= rule.reach;
+  // One pixel more than needed, so that whole vectors may be read there.
+  const bool after = column ? y + rule.reach < p.height : x + kMaskGroup + 1 + rule.reach <= p.width;
+  if (before || after) {
+    s.before = before ? -offset : offset;
+    s.after = after ? offset : -offset;
+  }
+  return s;
+}
+
+std::uint32_t mark_group(const PictureView& p, const MaskRule& rule, int y, int x) {
+  const std::uint8_t* pixel = p.data + p.stride * y + std::ptrdiff_t{p.channels} * x;
+  const Sides sides = sides_of_group(p, rule, y, x);
+  const int lead = p.channels == 3 ? rule.lead : 0;
+  const int n = std::min(kMaskGroup, p.width - x);
+  std::uint32_t bits = 0;
+  if (p.channels == 1) {
+    for (int i = 0; i < n; ++i) {
+      const bool ridge =
+          sides.any() &&
+          pixel[i] - std::max(pixel[i + sides.before], pixel[i + sides.after]) >= rule.ridge_threshold;
+      bits |= std::uint32_t{ridge || pixel[i] >= rule.colour_threshold} << i;
+    }
+    return bits;
+  }
+  for (int i = 0; i < n; ++i) bits |= std::uint32_t{marked(pixel + 3 * i, lead, rule, sides)} << i;
+  return bits;
+}
+
+}  // namespace mask_detail
+
+MaskRule mask_rule(const LineExtractorOptions& options, int channels) {
+  MaskRule rule;
+  rule.on = channels == 1 ? static_cast<unsigned>(LaserColour::mono) : static_cast<unsigned>(options.colour);
+  rule.lead = leading_channel(options.colour);
+  rule.reach = options.ridge_reach;
+  rule.axis = options.axis;
+  const bool plain = options.centre == CentreMethod::weighted_mean || options.ridge_threshold == 0;
+  rule.ridge_threshold = plain ? 256 : options.ridge_threshold;
+  // Without colour the excess is the brightness itself, and a bright background would be one large mark.
+  const bool colourless = rule.on == static_cast<unsigned>(LaserColour::mono);
+  rule.colour_threshold = colourless && !plain ? 256 : options.colour_threshold;
+  return rule;
+}
+
+void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words) {
+  for (int x = 0; x < picture.width; x += kMaskGroup) *words++ = mask_detail::mark_group(picture, rule, y, x);
+}
+
+}  // namespace linescope

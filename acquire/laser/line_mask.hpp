@@ -1,0 +1,40 @@
+// First look at every pixel: may it belong to the line? The only stage that reads the whole picture, so it
+// decides the speed.
+#pragma once
+
+#include <cstdint>
+
+#include "acquire/laser/picture_view.hpp"
+
+namespace linescope {
+
+/// The two tests of LineExtractorOptions as whole numbers.
+struct MaskRule {
+  unsigned on = 2;            ///< bits of LaserColour
+  int lead = 1;               ///< leading_channel
+  int colour_threshold = 24;  ///< excess from which a pixel is marked; 256 marks none
+  int ridge_threshold = 16;   ///< brightness over both sides from which a pixel is marked; 256 marks none
+  int reach = 24;             ///< px to the sides
+  ProfileAxis axis = ProfileAxis::column;
+
+  bool ridge() const { return ridge_threshold < 256; }
+};
+MaskRule mask_rule(const LineExtractorOptions& options, int channels);
+
+/// Pixels are marked in groups of this many: bit i of word w is pixel 32 w + i of the row.
+inline constexpr int kMaskGroup = 32;
+constexpr int mask_words(int width) {
+  return (width + kMaskGroup - 1) / kMaskGroup;
+}
+
+/// Marks one row of the picture. A side of the ridge test that would leave the picture is not asked (along
+/// rows: for the whole group), and with no side left the test marks nothing.
+using RowMarker = void (*)(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words);
+
+/// Plain C++, the definition of what is marked.
+void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words);
+
+/// The same marks by AVX2 for this rule, or mark_row where the processor or the picture does not allow it.
+RowMarker fastest_row_marker(const PictureView& picture, const MaskRule& rule);
+
+}  // namespace linescope

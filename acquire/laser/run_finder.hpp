@@ -1,0 +1,48 @@
+// From marked pixels to runs: stretches of one profile that may hold the line.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acquire/laser/line_mask.hpp"
+
+namespace linescope {
+
+/// Marked pixels first..last of a profile, both included, holes of at most merge_gap pixels between them.
+struct Run {
+  int first = 0;
+  int last = 0;
+  int length() const { return last - first + 1; }
+};
+
+/// Runs of every profile of one picture, in ascending order. Reads the picture once, row by row, whatever the
+/// axis.
+class RunFinder {
+ public:
+  /// More are dropped (the shortest first) and counted: a picture with that many has no clear line there.
+  static constexpr int kMostRuns = 8;
+
+  void find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker);
+
+  std::span<Run> runs(int profile) {
+    const auto p = static_cast<std::size_t>(profile);
+    return {runs_.data() + p * kMostRuns, static_cast<std::size_t>(count_[p])};
+  }
+
+  std::uint32_t dropped() const { return dropped_; }
+
+ private:
+  void take_columns(int y, int words);
+  void take_row(int y, int words);
+  void close(int profile, Run run);
+
+  int gap_ = 0;
+  std::uint32_t dropped_ = 0;
+  std::vector<std::uint32_t> words_;
+  std::vector<Run> open_;  ///< per column: the run that may still grow; first < 0 for none
+  std::vector<Run> runs_;
+  std::vector<int> count_;
+};
+
+}  // namespace linescope
