@@ -1,0 +1,36 @@
+// How bright the laser makes a point of the surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "acquire/twin/laser_sheet.hpp"
+#include "acquire/twin/optics_options.hpp"
+
+namespace linescope::twin {
+
+class LaserLight {
+ public:
+  LaserLight(std::uint64_t seed, const LaserSheet& sheet, const OpticsOptions& options);
+
+  /// Grey levels on a white surface with the unit normal `normal` at `point` (camera's frame), `seconds`
+  /// since the beginning; without speckle and without shade.
+  double level(const SheetPlace& place, const Eigen::Vector3d& normal, double seconds) const;
+
+  /// Half width (mm) of the band around the sheet outside which level() is 0, at `distance` from the source.
+  double reach(double distance) const;
+
+  const LaserSheet& sheet() const { return sheet_; }
+
+ private:
+  double sigma(double distance) const;
+  double passing(double fan_angle, double seconds) const;
+
+  std::uint64_t seed_;
+  const LaserSheet& sheet_;
+  LineOptions line_;
+  TroubleOptions trouble_;
+  double missing_threshold_;
+};
+
+}  // namespace linescope::twin

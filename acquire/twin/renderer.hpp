@@ -1,0 +1,85 @@
+// Renders what the camera sees: white light of the endoscope's LED, the laser's line, what disturbs both, the
+// sensor.
+//
+// Backwards ray casting: each pixel's ray is followed to the surface, and the light there is asked for. White
+// light changes slowly, so it is cast on a grid of every fourth pixel and filled in between; the line is cast
+// for every pixel near it, once per instant of the exposure. One thread; nothing allocated per picture once
+// the first is done.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "acquire/twin/image_sensor.hpp"
+#include "acquire/twin/laser_light.hpp"
+#include "acquire/twin/phantom.hpp"
+#include "acquire/twin/tissue.hpp"
+#include "acquire/twin/twin_options.hpp"
+#include "acquire/twin/view_rays.hpp"
+#include "common/rigid_transform.hpp"
+
+namespace linescope::twin {
+
+/// The camera against the phantom at one instant of the exposure.
+struct Glance {
+  Rigid<PhantomFrame, CameraCv> phantom_from_camera;
+  double seconds = 0;
+};
+
+class Renderer {
+ public:
+  /// `options` valid; `phantom` and `sheet` outlive the renderer.
+  Renderer(const TwinOptions& options, const Phantom& phantom, const LaserSheet& sheet);
+
+  /// `glances`: the instants of the exposure, in order; the middle one lights the white image. `index`:
+  /// picture's number.
+  void render(const std::vector<Glance>& glances, std::uint64_t index, cv::Mat& bgr);
+
+ private:
+  struct View {
+    Eigen::Matrix3d rotation;  ///< phantom from camera
+    Eigen::Vector3d eye;
+  };
+  struct Seen {
+    bool hit = false;
+    Eigen::Vector3d point;   ///< camera's frame
+    Eigen::Vector3d normal;  ///< camera's frame
+  };
+  struct Node {
+    Seen seen;
+    SheetPlace sheet;
+    Eigen::Vector3d white;
+  };
+
+  static View view_of(const Glance& glance);
+  Seen look(const View& view, const ViewRay& ray) const;
+  bool shaded(const View& view, const Seen& seen, const Eigen::Vector3d& light_direction) const;
+  Eigen::Vector3d white_light(const View& view, const Seen& seen) const;
+  double laser_level(const View& view, const Seen& seen, double seconds) const;
+
+  void cast_grid(const View& view, bool with_white);
+  void fill_white(const View& view);
+  void fill_white_cell(const View& view, int i, int j);
+  bool near_line(int i, int j) const;
+  void add_line(const View& view, double seconds, double share, std::uint64_t index);
+  void add_line_cell(const View& view, int i, int j, double seconds, double share, std::uint64_t index);
+
+  const Node& node(int i, int j) const { return grid_[static_cast<std::size_t>(j * columns_ + i)]; }
+  int pixel_u(int i) const;
+  int pixel_v(int j) const;
+
+  TwinOptions options_;
+  const Phantom& phantom_;
+  LaserLight laser_;
+  Tissue tissue_;
+  ImageSensor sensor_;
+  ViewRays view_rays_;
+  RayTable rays_;
+  int columns_, rows_;
+  std::vector<Node> grid_;
+  LightImage light_;
+};
+
+}  // namespace linescope::twin
