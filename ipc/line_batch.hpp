@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,24 @@
 #include "ipc/segment_types.hpp"
 
 namespace linescope {
+
+/// Leaves new elements uninitialised: they are overwritten at once, and a million zeros would cost as much as
+/// the copying.
+template <class T>
+struct UninitialisedAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UninitialisedAllocator<U>;
+  };
+  template <class U>
+  void construct(U*) const noexcept {}
+  template <class U, class First, class... Rest>
+  void construct(U* at, First&& first, Rest&&... rest) const {
+    ::new (static_cast<void*>(at)) U(std::forward<First>(first), std::forward<Rest>(rest)...);
+  }
+};
+
+using PointBuffer = std::vector<SurfacePoint, UninitialisedAllocator<SurfacePoint>>;
 
 /// Where a reader stands. A fresh one begins with the first line of the current scan.
 struct LineCursor {
@@ -20,9 +39,9 @@ struct LineCursor {
 
 /// What one read_lines gave.
 struct LineBatch {
-  std::vector<Line> lines;           ///< Line::first_point counts in `points`
-  std::vector<SurfacePoint> points;  ///< world, mm, without gaps
-  std::uint32_t scan_id = 0;         ///< 0: no scan yet
+  std::vector<Line> lines;    ///< Line::first_point counts in `points`
+  PointBuffer points;         ///< world, mm, without gaps
+  std::uint32_t scan_id = 0;  ///< 0: no scan yet
   /// The scan was cleared, begun anew or shortened by an undo since the last call: forget the surface made of
   /// it. What still counts is delivered again from the first line.
   bool restarted = false;

@@ -131,6 +131,7 @@ class SegmentReader {
 
  private:
   struct Parts;
+  class LineCopier;
   explicit SegmentReader(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };

@@ -101,6 +101,7 @@ class SegmentWriter {
   struct Parts;
   explicit SegmentWriter(std::unique_ptr<Parts> parts);
   friend class ControlServer;
+  PublishOutcome refuse_line(PublishOutcome outcome, Counter why);
   std::unique_ptr<Parts> parts_;
 };
 
