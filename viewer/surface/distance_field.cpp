@@ -1,0 +1,177 @@
+#include "viewer/surface/distance_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/surface/cube_table.hpp"
+
+namespace linescope {
+namespace {
+
+// Fixed point: a patch weighs at most 2^16 (a column holds more points than that only after hundreds of
+// passes), distances, centres and deviations have 2^20 steps per interval, normals 2^16 per unit: 64 bits
+// hold sums of thousands of patches.
+constexpr std::int64_t kMaxWeight = 1 << 16;
+constexpr double kDistanceUnit = 1 << 20;
+constexpr double kNormalUnit = 1 << 16;
+
+constexpr double kSideAgreement =
+    0.5;  // length of the mean normal below which the patches contradict each other
+constexpr float kMaxStep =
+    1.6f;  // intervals; distances of neighbouring vertices differ by less on one surface
+
+std::int64_t fixed(double value, double unit) {
+  return std::llround(value * unit);
+}
+
+// One patch's say about its four columns of vertices.
+struct Stamp {
+  std::int64_t weight;
+  std::array<std::int64_t, 3> normal;
+  std::int64_t deviation;
+  std::int64_t points;
+};
+
+Stamp stamp_of(const SurfacePatch& patch, int sign) {
+  const std::int64_t weight =
+      sign * std::clamp<std::int64_t>(std::llround(patch.weight / kTypicalWeight), 1, kMaxWeight);
+  Stamp stamp{weight,
+              {},
+              weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit),
+              sign * std::llround(patch.points)};
+  for (std::size_t i = 0; i < 3; ++i) stamp.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
+  return stamp;
+}
+
+GridIndex plus(GridIndex at, int axis, int step) {
+  (axis == 0 ? at.x : axis == 1 ? at.y : at.z) += step;
+  return at;
+}
+
+}  // namespace
+
+void DistanceField::apply(const MomentCell& cell, const SurfacePatch& patch, int sign) {
+  const Stamp stamp = stamp_of(patch, sign);
+  const auto h = static_cast<std::size_t>(patch.axis);
+  const int u = (patch.axis + 1) % 3, v = (patch.axis + 2) % 3;
+  const double along = patch.normal[h];
+  const double slope = (std::abs(patch.normal[static_cast<std::size_t>(u)]) +
+                        std::abs(patch.normal[static_cast<std::size_t>(v)])) /
+                       std::abs(along);
+  const double reach = std::min(1.0 + slope, 3.0);
+  for (int corner = 0; corner < 4; ++corner) {
+    const double height = patch.height[static_cast<std::size_t>(corner)];
+    if (!(std::abs(height) < 2 * kPatchReach)) continue;
+    const GridIndex foot = plus(plus(cell.at, u, corner & 1), v, corner >> 1);
+    const int low = static_cast<int>(std::floor(height - reach)),
+              high = static_cast<int>(std::ceil(height + reach));
+    for (int k = low; k <= high; ++k) {
+      const std::int32_t number = vertex_at(plus(foot, patch.axis, k));
+      FieldVertex& vertex = vertices_[number];
+      VertexSums& sums = vertex.sums;
+      sums.weight += stamp.weight;
+      sums.distance += stamp.weight * fixed((k - height) * along, kDistanceUnit);
+      sums.deviation += stamp.deviation;
+      sums.points += stamp.points;
+      const std::array<int, 3> from_cell{vertex.at.x - cell.at.x, vertex.at.y - cell.at.y,
+                                         vertex.at.z - cell.at.z};
+      for (std::size_t i = 0; i < 3; ++i) {
+        sums.normal[i] += stamp.normal[i];
+        sums.centre[i] += stamp.weight * fixed(patch.centre[i] - from_cell[i], kDistanceUnit);
+      }
+      if (vertex.changed) continue;
+      vertex.changed = true;
+      changed_.push_back(number);
+    }
+  }
+}
+
+std::int32_t DistanceField::vertex_at(GridIndex at) {
+  bool added = false;
+  const std::int32_t block = table_.find_or_add(block_of(at), added);
+  if (added) {
+    if (blocks_.size() < table_.size()) blocks_.emplace_back();
+    blocks_[static_cast<std::size_t>(block)].fill(BlockTable::kNone);
+  }
+  std::int32_t& number = blocks_[static_cast<std::size_t>(block)][static_cast<std::size_t>(local_of(at))];
+  if (number != BlockTable::kNone) return number;
+  number = vertices_.add();
+  vertices_[number].at = at;
+  vertices_[number].block = block;
+  return number;
+}
+
+void DistanceField::update() {
+  for (const std::int32_t number : changed_) evaluate(vertices_[number]);
+  for (const std::int32_t number : changed_) {
+    const FieldVertex& at = vertices_[number];
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::int32_t low = vertex_near(at.block, (at.at.x & 7) - (corner & 1),
+                                           (at.at.y & 7) - (corner >> 1 & 1), (at.at.z & 7) - (corner >> 2));
+      if (low != BlockTable::kNone) find_case(vertices_[low]);
+    }
+  }
+  for (const std::int32_t number : changed_) vertices_[number].changed = false;
+  changed_.clear();
+}
+
+void DistanceField::evaluate(FieldVertex& vertex) {
+  const VertexSums& s = vertex.sums;
+  vertex.known = false;
+  if (s.weight == 0) return;
+  const double inverse = 1.0 / static_cast<double>(s.weight);
+  const auto mean = [inverse](std::int64_t sum, double unit) {
+    return static_cast<double>(sum) * inverse / unit;
+  };
+  const Eigen::Vector3d normal(mean(s.normal[0], kNormalUnit), mean(s.normal[1], kNormalUnit),
+                               mean(s.normal[2], kNormalUnit));
+  const Eigen::Vector3d centre(mean(s.centre[0], kDistanceUnit), mean(s.centre[1], kDistanceUnit),
+                               mean(s.centre[2], kDistanceUnit));
+  const double length = normal.norm();
+  vertex.known = length >= kSideAgreement;
+  if (!vertex.known) return;
+  const Eigen::Vector3d direction = normal / length;
+  vertex.normal = direction.cast<float>();
+  vertex.distance = static_cast<float>(mean(s.distance, kDistanceUnit));
+  vertex.deviation = static_cast<float>(mean(s.deviation, kDistanceUnit));
+  // Points that fill the four columns evenly up to a straight border at distance b (at most 1) have their
+  // mean (1 - b) / 2 off the vertex.
+  vertex.support = static_cast<float>(1 - 2 * (centre - direction * centre.dot(direction)).norm());
+}
+
+void DistanceField::find_case(FieldVertex& vertex) {
+  vertex.corners = 0;
+  std::array<const FieldVertex*, 8> at{};
+  unsigned inside = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::int32_t number =
+        vertex_near(vertex.block, (vertex.at.x & 7) + (corner & 1), (vertex.at.y & 7) + (corner >> 1 & 1),
+                    (vertex.at.z & 7) + (corner >> 2));
+    if (number == BlockTable::kNone || !vertices_[number].known) return;
+    at[static_cast<std::size_t>(corner)] = &vertices_[number];
+    if (vertices_[number].distance < 0) inside |= 1u << corner;
+  }
+  if (inside == 0 || inside == 0xFF) return;
+  const CubeCase& found = cube_case(static_cast<std::uint8_t>(inside));
+  for (int edge = 0; edge < 12; ++edge) {
+    if ((found.edges >> edge & 1) == 0) continue;
+    const EdgeCorners ends = edge_corners(edge);
+    const FieldVertex &low = *at[ends.low], &high = *at[ends.high];
+    const float rise = high.distance - low.distance;
+    const float expected = low.normal[edge_axis(edge)] + high.normal[edge_axis(edge)];
+    if (std::abs(rise) > kMaxStep || rise * expected < -0.5f) return;  // two surfaces, or the back of one
+  }
+  vertex.corners = static_cast<std::uint8_t>(inside);
+}
+
+void DistanceField::clear() {
+  table_.clear();
+  vertices_.clear();
+  changed_.clear();
+}
+
+std::size_t DistanceField::memory_bytes() const {
+  return table_.memory_bytes() + table_.size() * sizeof(VertexBlock) + vertices_.size() * sizeof(FieldVertex);
+}
+
+}  // namespace linescope

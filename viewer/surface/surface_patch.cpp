@@ -1,0 +1,278 @@
+#include "viewer/surface/surface_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/surface/small_solver.hpp"
+
+namespace linescope {
+namespace {
+
+constexpr double kMinAxisShare = 0.5;  // |normal along h| below this: another axis serves better
+constexpr double kMinSpread =
+    0.15;  // intervals; the points' standard deviation across their narrowest direction
+constexpr double kMinColumnShare =
+    0.02;  // of the best column: fewer points than that in the middle are wild, not border
+constexpr double kMinColumnPoints = 3;
+constexpr double kOutlierSigmas = 4.0;
+constexpr double kLeastDeviation =
+    0.1;  // intervals; a cube nearer to the fit than four of these is never wild
+
+// Position of a covariance entry (i, j) in xx xy xz yy yz zz.
+constexpr std::array<std::array<std::size_t, 3>, 3> kEntry{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+
+struct Axes {
+  explicit Axes(int axis)
+      : h(static_cast<std::size_t>(axis)),
+        u(static_cast<std::size_t>((axis + 1) % 3)),
+        v(static_cast<std::size_t>((axis + 2) % 3)) {}
+  std::size_t h, u, v;
+};
+
+// Sums over the cubes of one column about the middle of the neighbourhood's middle column.
+struct Column {
+  double w = 0, points = 0, lines = 0;
+  double u = 0, v = 0, h = 0, uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  // sums, after finish(): means
+  bool empty() const { return w == 0; }
+};
+
+struct Place {
+  double u, v, h;
+};
+
+Place place_of(const NearCell& cell, const Axes& ax) {
+  return {cell.statistics->mean[ax.u] + cell.offset[ax.u] - 0.5,
+          cell.statistics->mean[ax.v] + cell.offset[ax.v] - 0.5,
+          cell.statistics->mean[ax.h] + cell.offset[ax.h]};
+}
+
+void add(Column& column, const NearCell& cell, const Axes& ax) {
+  const CellStatistics& s = *cell.statistics;
+  const auto& c = s.covariance;
+  const Place p = place_of(cell, ax);
+  column.w += s.weight;
+  column.points += s.points;
+  column.lines = std::max(column.lines, s.lines);
+  column.u += s.weight * p.u;
+  column.v += s.weight * p.v;
+  column.h += s.weight * p.h;
+  column.uu += s.weight * (c[kEntry[ax.u][ax.u]] + p.u * p.u);
+  column.uv += s.weight * (c[kEntry[ax.u][ax.v]] + p.u * p.v);
+  column.vv += s.weight * (c[kEntry[ax.v][ax.v]] + p.v * p.v);
+  column.uh += s.weight * (c[kEntry[ax.u][ax.h]] + p.u * p.h);
+  column.vh += s.weight * (c[kEntry[ax.v][ax.h]] + p.v * p.h);
+  column.hh += s.weight * (c[kEntry[ax.h][ax.h]] + p.h * p.h);
+}
+
+void finish(Column& column) {
+  if (column.empty()) return;
+  const double inverse = 1.0 / column.w;
+  for (double* sum : {&column.u, &column.v, &column.h, &column.uu, &column.uv, &column.vv, &column.uh,
+                      &column.vh, &column.hh})
+    *sum *= inverse;
+}
+
+using Columns = std::array<Column, 9>;
+using Coefficients = std::array<double, 6>;  // a b c d e f
+
+double height_at(const Coefficients& k, double u, double v) {
+  return k[0] + k[1] * u + k[2] * v + k[3] * u * u + k[4] * u * v + k[5] * v * v;
+}
+
+struct Normal2 {  // slopes of the height
+  double u, v;
+  double along_h() const { return 1.0 / std::sqrt(1 + u * u + v * v); }
+};
+Normal2 slopes_at(const Coefficients& k, double u, double v) {
+  return {k[1] + 2 * k[3] * u + k[4] * v, k[2] + k[4] * u + 2 * k[5] * v};
+}
+
+struct Window {
+  Columns columns{};
+  double weight = 0, points = 0, lines = 0, best_column = 0;
+  double spread = 0;  // variance across the narrowest direction of u, v
+};
+
+double narrowest_variance(double uu, double uv, double vv) {
+  const double half = 0.5 * (uu + vv), difference = 0.5 * (uu - vv);
+  return half - std::sqrt(difference * difference + uv * uv);
+}
+
+// Which cubes of the input are left out as wild: bit by place in the column.
+using Excluded = std::array<std::uint8_t, 9>;
+
+Window window_of(const PatchInput& input, const Axes& ax, const Excluded& excluded) {
+  Window window;
+  double u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    Column& column = window.columns[i];
+    for (int k = 0; k < input.columns[i].count; ++k)
+      if ((excluded[i] >> k & 1) == 0) add(column, input.columns[i].cells[static_cast<std::size_t>(k)], ax);
+    finish(column);
+    window.weight += column.w;
+    window.points += column.points;
+    window.lines = std::max(window.lines, column.lines);
+    window.best_column = std::max(window.best_column, column.points);
+    u += column.w * column.u;
+    v += column.w * column.v;
+    uu += column.w * column.uu;
+    uv += column.w * column.uv;
+    vv += column.w * column.vv;
+  }
+  const double inverse = 1.0 / std::max(window.weight, 1.0);
+  u *= inverse;
+  v *= inverse;
+  window.spread = narrowest_variance(uu * inverse - u * u, uv * inverse - u * v, vv * inverse - v * v);
+  return window;
+}
+
+bool enough(const Window& window, const PatchOptions& options) {
+  const Column& middle = window.columns[4];
+  return window.points >= options.min_points && window.lines >= options.min_lines &&
+         middle.points >= std::max(kMinColumnPoints, kMinColumnShare * window.best_column) &&
+         window.spread >= kMinSpread * kMinSpread;
+}
+
+struct Solution {
+  Coefficients k{};
+  double variance_factor = 0;  // of the height in the middle, per unit variance of a unit weight
+};
+
+template <int N>
+Solution solve(const Window& window, const PatchOptions& options) {
+  SmallSystem<N> system;
+  for (const Column& c : window.columns) {
+    if (c.empty()) continue;
+    const double row[6] = {1, c.u, c.v, c.uu, c.uv, c.vv};
+    system.add(row, c.h, c.w);
+  }
+  const double unit_variance = options.point_variance * kTypicalWeight;
+  const double prior[6] = {0,
+                           unit_variance,
+                           unit_variance,
+                           unit_variance / options.curvature_variance,
+                           unit_variance / (4 * options.curvature_variance),
+                           unit_variance / options.curvature_variance};
+  system.add_to_diagonal(prior);
+  system.factorise();
+  Solution result;
+  const auto k = system.solve();
+  std::copy(k.begin(), k.end(), result.k.begin());
+  result.variance_factor = system.inverse_first();
+  return result;
+}
+
+Solution solve(const Window& window, const PatchOptions& options) {
+  return options.fit == LocalFit::plane ? solve<3>(window, options) : solve<6>(window, options);
+}
+
+// Variance of a point's height about the surface, from within the columns: what is common to a column does
+// not count.
+double point_variance(const Window& window, const Coefficients& k, double fallback) {
+  std::array<double, 9> found{};
+  std::size_t count = 0;
+  for (const Column& c : window.columns) {
+    if (c.points < 8) continue;
+    const Normal2 s = slopes_at(k, c.u, c.v);
+    const double uu = c.uu - c.u * c.u, vv = c.vv - c.v * c.v, uv = c.uv - c.u * c.v;
+    const double uh = c.uh - c.u * c.h, vh = c.vh - c.v * c.h, hh = c.hh - c.h * c.h;
+    found[count++] = std::max(
+        0.0, hh - 2 * s.u * uh - 2 * s.v * vh + s.u * s.u * uu + 2 * s.u * s.v * uv + s.v * s.v * vv);
+  }
+  if (count == 0) return fallback;
+  std::nth_element(found.begin(), found.begin() + count / 2, found.begin() + count);
+  return found[count / 2];
+}
+
+// Cubes whose mean lies farther off the fit than noise explains.
+bool find_wild_cells(const PatchInput& input, const Axes& ax, const Coefficients& k, double variance,
+                     Excluded& excluded) {
+  const double limit = kOutlierSigmas * std::max(std::sqrt(variance), kLeastDeviation);
+  bool any = false;
+  for (std::size_t i = 0; i < 9; ++i)
+    for (int c = 0; c < input.columns[i].count; ++c) {
+      const Place p = place_of(input.columns[i].cells[static_cast<std::size_t>(c)], ax);
+      const bool wild = std::abs(p.h - height_at(k, p.u, p.v)) > limit;
+      const auto bit = static_cast<std::uint8_t>(1 << c);
+      if (wild == ((excluded[i] & bit) != 0)) continue;
+      excluded[i] = static_cast<std::uint8_t>(excluded[i] ^ bit);
+      any = true;
+    }
+  return any;
+}
+
+// How many times more the mean of a window scatters than if all its points erred by themselves: points of one
+// line share the line's error. Lines are compared within cubes; a line crosses up to three columns of the
+// window.
+double line_factor(const PatchInput& input, const Axes& ax, const Normal2& slope, double variance,
+                   double mean_weight) {
+  double apart = 0, freedom = 0;
+  for (const PatchColumn& column : input.columns)
+    for (int c = 0; c < column.count; ++c) {
+      const CellStatistics& s = *column.cells[static_cast<std::size_t>(c)].statistics;
+      if (s.lines < 2) continue;
+      const auto& m = s.lines_apart;
+      apart += m[kEntry[ax.h][ax.h]] - 2 * slope.u * m[kEntry[ax.u][ax.h]] -
+               2 * slope.v * m[kEntry[ax.v][ax.h]] + slope.u * slope.u * m[kEntry[ax.u][ax.u]] +
+               2 * slope.u * slope.v * m[kEntry[ax.u][ax.v]] + slope.v * slope.v * m[kEntry[ax.v][ax.v]];
+      freedom += s.lines - 1;
+    }
+  if (freedom == 0 || !(variance > 0)) return 1;
+  return 1 + 3 * std::max(0.0, apart / (freedom * variance * mean_weight) - 1);
+}
+
+double seen_along(const PatchInput& input, const std::array<double, 3>& normal) {
+  double sum = 0;
+  for (const PatchColumn& column : input.columns)
+    for (int c = 0; c < column.count; ++c) {
+      const auto& towards = column.cells[static_cast<std::size_t>(c)].statistics->towards;
+      sum += towards[0] * normal[0] + towards[1] * normal[1] + towards[2] * normal[2];
+    }
+  return sum;
+}
+
+SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& window, const Solution& found,
+                        double variance) {
+  SurfacePatch patch;
+  patch.axis = input.axis;
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    patch.height[corner] = height_at(found.k, (corner & 1) != 0 ? 0.5 : -0.5, corner >= 2 ? 0.5 : -0.5);
+  const Normal2 slope = slopes_at(found.k, 0, 0);
+  const double along = slope.along_h();
+  patch.normal[ax.u] = -slope.u * along;
+  patch.normal[ax.v] = -slope.v * along;
+  patch.normal[ax.h] = along;
+  if (seen_along(input, patch.normal) < 0)
+    for (double& n : patch.normal) n = -n;
+  const Column& middle = window.columns[4];
+  patch.weight = middle.w;
+  patch.points = middle.points;
+  patch.centre[ax.u] = middle.u + 0.5;
+  patch.centre[ax.v] = middle.v + 0.5;
+  patch.centre[ax.h] = middle.h;
+  const double mean_weight = window.weight / window.points;
+  const double factor = line_factor(input, ax, slope, variance, mean_weight);
+  patch.deviation = along * std::sqrt(variance * mean_weight * found.variance_factor * factor);
+  return patch;
+}
+
+}  // namespace
+
+std::optional<SurfacePatch> fit_patch(const PatchInput& input, const PatchOptions& options) {
+  const Axes ax(input.axis);
+  Excluded excluded{};
+  Window window = window_of(input, ax, excluded);
+  if (!enough(window, options)) return std::nullopt;
+  Solution found = solve(window, options);
+  double variance = point_variance(window, found.k, options.point_variance);
+  for (int round = 0; round < 2 && find_wild_cells(input, ax, found.k, variance, excluded); ++round) {
+    window = window_of(input, ax, excluded);
+    if (!enough(window, options)) return std::nullopt;
+    found = solve(window, options);
+    variance = point_variance(window, found.k, options.point_variance);
+  }
+  if (slopes_at(found.k, 0, 0).along_h() < kMinAxisShare) return std::nullopt;
+  return patch_from(input, ax, window, found, variance);
+}
+
+}  // namespace linescope
