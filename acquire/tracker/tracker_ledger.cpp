@@ -2,13 +2,20 @@
 
 namespace linescope {
 
-void TrackerLedger::enter(const PoseSample& sample) {
+void TrackerLedger::count(const PoseSample& sample) {
   if (sample.station >= kMaxStations) return;
   const std::lock_guard lock(mutex_);
   ++books_.counters.samples;
   StationStatus& station = books_.stations[sample.station];
   ++station.samples;
   station.last_sample = sample.time;
+}
+
+void TrackerLedger::enter(const PoseSample& sample) {
+  if (sample.station >= kMaxStations) return;
+  count(sample);
+  const std::lock_guard lock(mutex_);
+  StationStatus& station = books_.stations[sample.station];
   if (station.state == sample.state) return;
   station.state = sample.state;
   station.reason = usable(sample.state) ? "" : std::string(name(sample.state));

@@ -23,8 +23,10 @@ class TrackerLedger {
     change(books_);
   }
 
-  /// Enters a sample that is handed out. Allocates nothing unless the state changed.
+  /// Enters a sample that is handed out, and its state. Allocates nothing unless the state changed.
   void enter(const PoseSample& sample);
+  /// The same for sources that keep states and reasons themselves.
+  void count(const PoseSample& sample);
 
   TrackerStatus status() const;
   StationStatus station(int station) const;
