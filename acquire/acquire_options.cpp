@@ -98,7 +98,7 @@ void declare_reconstruct(ConfigSchema& schema, AcquireOptions& options) {
                 "Nearer points are dropped and counted.");
   schema.number("reconstruct.max_depth_mm", r.max_depth_mm, {.unit = "mm", .min = 0.1, .max = 10000},
                 "Farther points are dropped and counted.");
-  schema.number("reconstruct.centre_noise_px", r.centre_noise_px, {.unit = "px", .min = 0, .max = 10},
+  schema.number("reconstruct.line_noise_px", r.line_noise_px, {.unit = "px", .min = 0, .max = 10},
                 "Noise of the line's middle beyond the camera's own noise (speckle, texture).");
 }
 
