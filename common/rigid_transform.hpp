@@ -30,6 +30,15 @@ class Rigid {
   Rigid(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation)
       : rotation_(rotation.normalized()), translation_(translation) {}
 
+  /// The numbers as they are, not normalised again: for reading back what was written with all its bits.
+  /// Precondition: `unit` has length one.
+  static Rigid from_unit(const Eigen::Quaterniond& unit, const Eigen::Vector3d& translation) {
+    Rigid result;
+    result.rotation_ = unit;
+    result.translation_ = translation;
+    return result;
+  }
+
   const Eigen::Quaterniond& rotation() const { return rotation_; }
   const Eigen::Vector3d& translation() const { return translation_; }
 

@@ -10,6 +10,7 @@ find_package(Boost 1.74 REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(libusb REQUIRED IMPORTED_TARGET libusb-1.0)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 
 if(LINESCOPE_TESTS)
   include(GoogleTest)
