@@ -5,6 +5,7 @@ namespace {
 
 constexpr Nanoseconds kFutureSlack = 100 * kMillisecond;  // the fit is coarse in the first moments
 constexpr std::int64_t kPastFrames = 240;                 // records of one cycle, or a cycle repeated
+constexpr std::int64_t kSmallStep = 24;                   // forward: needs no proof by the clock
 constexpr int kDoubtsForNewEpoch = 3;
 
 }  // namespace
@@ -16,7 +17,8 @@ void FrameSequence::reset() {
 }
 
 bool FrameSequence::sensible(std::int64_t frame, Nanoseconds arrival) const {
-  return frame > newest_ - kPastFrames && clock_.arrival_of(frame) <= arrival + kFutureSlack;
+  if (frame > newest_ + kSmallStep) return clock_.arrival_of(frame) <= arrival + kFutureSlack;
+  return frame > newest_ - kPastFrames;
 }
 
 FrameSequence::Verdict FrameSequence::accept(std::uint32_t count, Nanoseconds arrival, std::int64_t& frame) {

@@ -13,8 +13,7 @@ constexpr Nanoseconds kReadSlice = 50 * kMillisecond;
 constexpr int kMostRestarts = 2;  // on the open line; then it is closed and opened again
 
 std::string reason_for(const StationFigures& figures) {
-  if (is_error(figures.error) && figures.state != ToolState::disconnected)
-    return std::string(error_words(figures.error));
+  if (is_error(figures.error)) return std::string(error_words(figures.error));
   switch (figures.state) {
     case ToolState::ok:
       return figures.minor_distortion ? "minor distortion: metal near by" : "";
@@ -30,7 +29,8 @@ std::string reason_for(const StationFigures& figures) {
 }
 
 bool same(const StationFigures& a, const StationFigures& b) {
-  return a.state == b.state && a.error == b.error && a.minor_distortion == b.minor_distortion;
+  return a.state == b.state && a.error == b.error && a.minor_distortion == b.minor_distortion &&
+         a.silent == b.silent;
 }
 
 }  // namespace

@@ -37,14 +37,9 @@ void LibertyStream::restart() {
 void LibertyStream::fall_silent(ToolState state, Nanoseconds now, SampleSink& sink) {
   sink_ = &sink;
   cycle_time_ = std::max(now, cycle_time_ + 1);
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    Station& station = stations_[i];
-    if (station.figures.state == ToolState::never_seen || station.figures.state == state) continue;
-    PoseSample sample;
-    sample.station = static_cast<std::uint8_t>(i);
-    sample.state = state;
-    sample.arrival = now;
-    emit(station, sample);
+  for (int i = 0; i < kMaxStations; ++i) {
+    const ToolState before = station(i).state;
+    if (before != ToolState::never_seen && before != state) report_silent(i, state, 0, now);
   }
   sink_ = nullptr;
 }
@@ -81,6 +76,7 @@ void LibertyStream::on_reading(const LibertyReading& reading) {
   station.last_cycle = cycle_;
   station.figures.error = reading.error;
   station.figures.minor_distortion = reading.distortion == 1;
+  station.figures.silent = false;
   PoseSample sample;
   sample.frame_count = reading.frame_count;
   sample.station = reading.station;
@@ -112,17 +108,25 @@ bool LibertyStream::count_losses(Station& station, std::int64_t frame) {
 }
 
 void LibertyStream::find_missing(std::uint32_t count) {
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    Station& station = stations_[i];
+  for (int i = 0; i < kMaxStations; ++i) {
+    Station& station = stations_[static_cast<std::size_t>(i)];
     if (!station.expected || cycle_ - station.last_cycle < options_.missing_after) continue;
     station.expected = false;
-    PoseSample sample;
-    sample.frame_count = count;
-    sample.station = static_cast<std::uint8_t>(i);
-    sample.state = ToolState::missing;
-    sample.arrival = arrival_;
-    emit(station, sample);
+    report_silent(i, ToolState::missing, count, arrival_);
   }
+}
+
+void LibertyStream::report_silent(int station, ToolState state, std::uint32_t count, Nanoseconds arrival) {
+  Station& it = stations_[static_cast<std::size_t>(station)];
+  it.figures.error = 0;
+  it.figures.minor_distortion = false;
+  it.figures.silent = true;
+  PoseSample sample;
+  sample.frame_count = count;
+  sample.station = static_cast<std::uint8_t>(station);
+  sample.state = state;
+  sample.arrival = arrival;
+  emit(it, sample);
 }
 
 void LibertyStream::emit(Station& station, PoseSample sample) {

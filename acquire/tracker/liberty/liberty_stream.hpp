@@ -25,6 +25,7 @@ struct StationFigures {
   ToolState state = ToolState::never_seen;
   std::uint8_t error = 0;  ///< error indicator of the newest record
   bool minor_distortion = false;
+  bool silent = false;  ///< it was there, and its records stopped coming
   std::uint64_t lost = 0;
 };
 
@@ -73,6 +74,7 @@ class LibertyStream : private LibertySink {
   void begin_cycle(std::int64_t frame);
   void find_missing(std::uint32_t count);
   void begin_epoch();
+  void report_silent(int station, ToolState state, std::uint32_t count, Nanoseconds arrival);
   bool count_losses(Station& station, std::int64_t frame);
   void emit(Station& station, PoseSample sample);
   ToolState state_of(const LibertyReading& reading) const;
