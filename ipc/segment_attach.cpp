@@ -103,7 +103,9 @@ Result<SegmentReader> SegmentReader::attach(const AttachOptions& options) {
   if (auto ok = check_magic(header, options.name); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_size(header, object->size(), options.name); !ok) return tl::unexpected(ok.error());
   auto plan = checked_plan(header, object->size());
-  if (!plan) return tl::unexpected(plan.error());
+  if (!plan) {
+    return fail(plan.error().code, fmt::format("segment {}: {}", options.name, plan.error().message));
+  }
   auto parts = std::make_unique<Parts>(std::move(*object), *plan, identity_of(header, *plan, options.name),
                                        header.picture_samples);
   if (options.wake_ups) parts->control = open_control(parts->identity);

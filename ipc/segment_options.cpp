@@ -43,7 +43,7 @@ Result<void> check_range(const Range& r) {
 
 Result<void> validate(const SegmentOptions& o) {
   if (auto ok = check_name(o.name); !ok) return ok;
-  const std::array ranges{Range{"point_capacity", o.point_capacity, 2, 200'000'000},
+  const std::array ranges{Range{"point_capacity", o.point_capacity, 2, 4'000'000'000},
                           Range{"line_capacity", o.line_capacity, 1, 10'000'000},
                           Range{"points_per_line", o.points_per_line, 1, 1'000'000},
                           Range{"pose_history", o.pose_history, 2, 1'000'000},

@@ -60,9 +60,9 @@ class Planner {
 };
 
 tl::unexpected<Error> impossible(const ls_section& s, const char* what) {
-  return fail(ErrorCode::unreadable,
-              fmt::format("the segment's table of sections is damaged (section {}: {}); restart the daemon",
-                          s.kind, what));
+  return fail(
+      ErrorCode::unreadable,
+      fmt::format("its table of sections is damaged (section {}: {}): restart the daemon", s.kind, what));
 }
 
 Result<void> check_section(const ls_section& s, std::uint64_t total) {
@@ -127,7 +127,7 @@ Result<SegmentPlan> checked_plan(const ls_header& header, std::uint64_t mapped_b
   plan.total_bytes = mapped_bytes;
   if (header.section_count > LS_MAX_SECTIONS) {
     return fail(ErrorCode::unreadable,
-                fmt::format("the segment's header is damaged ({} sections)", header.section_count));
+                fmt::format("its header is damaged ({} sections): restart the daemon", header.section_count));
   }
   for (std::uint32_t i = 0; i < header.section_count; ++i) {
     const ls_section& s = header.sections[i];
@@ -138,7 +138,7 @@ Result<SegmentPlan> checked_plan(const ls_header& header, std::uint64_t mapped_b
   for (std::uint32_t kind = 1; kind < kSectionKinds; ++kind) {
     if (plan.sections[kind].kind == kind) continue;
     return fail(ErrorCode::unreadable,
-                fmt::format("the segment's header is damaged (section {} is missing)", kind));
+                fmt::format("its header is damaged (section {} is missing): restart the daemon", kind));
   }
   if (auto ok = check_contents(header, plan); !ok) return tl::unexpected(ok.error());
   return plan;

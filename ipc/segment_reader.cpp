@@ -47,12 +47,12 @@ const SegmentIdentity& SegmentReader::identity() const {
 }
 
 Life SegmentReader::Parts::examine(Nanoseconds now) const {
+  if (!intact()) return Life::damaged;
   if (now - name_checked >= kNameEvery || now < name_checked) {
     name_checked = now;
     const ObjectFacts named = SharedObject::facts_of(segment.name());
     name_is_gone = named.inode == 0;
     has_name = named.same_object(segment.facts());
-    if (!intact()) return Life::damaged;
   }
   const ls_header& h = header();
   if (shared::load(h.session_id) != identity.session_id || shared::load(h.magic) != LS_MAGIC)

@@ -93,7 +93,8 @@ class SegmentReader {
 
   const SegmentIdentity& identity() const;
 
-  /// Two loads; whether the name still leads here is looked up at most every 50 ms.
+  /// One cheap system call (is the mapping still whole?); where the name leads is looked up at most every 50
+  /// ms.
   Life life(Nanoseconds now) const;
   /// The same with age and sentence.
   LifeReport report(Nanoseconds now) const;
@@ -101,7 +102,8 @@ class SegmentReader {
   /// Sleeps until something of `topics` was published since the last wait, the writer falls silent, or the
   /// time is over. True when there is something new. The first call is true when anything was ever published.
   bool wait(Topic topics, Nanoseconds timeout);
-  /// Whether something of `topics` is new, without sleeping and without a system call.
+  /// Whether something of `topics` is new, without sleeping and without a system call: made for polling in a
+  /// loop. The one call that does not look whether the mapping was cut short; look with life() now and then.
   bool news(Topic topics);
 
   ReadOutcome status(DaemonStatus& out) const;

@@ -58,7 +58,6 @@ void enter(const Generation& generation, LineCursor& cursor, LineBatch& batch) {
     cursor.generation = generation.number;
     cursor.next_line = 0;
   }
-  if (cursor.next_line >= generation.scan.kept_lines) skip_to(generation.scan.first_serial, cursor, batch);
 }
 
 /// New lines are numbered without gaps; kept ones come from before.
@@ -92,12 +91,15 @@ class SegmentReader::LineCopier {
   ReadOutcome run(LineCursor& cursor, std::size_t max_points) {
     enter(generation_, cursor, batch_);
     reserve(cursor.next_line, max_points);
-    for (; cursor.next_line < generation_.lines; ++cursor.next_line) {
+    while (true) {
+      // Behind the last kept line follow those of this generation; what was undone in between is missed.
+      if (cursor.next_line >= generation_.scan.kept_lines)
+        skip_to(generation_.scan.first_serial, cursor, batch_);
+      if (cursor.next_line >= generation_.lines) return ReadOutcome::ok;
       const ReadOutcome outcome = copy(cursor, max_points);
-      if (outcome == ReadOutcome::nothing) return ReadOutcome::ok;
-      if (outcome != ReadOutcome::ok) return outcome;
+      if (outcome != ReadOutcome::ok) return outcome == ReadOutcome::nothing ? ReadOutcome::ok : outcome;
+      ++cursor.next_line;
     }
-    return ReadOutcome::ok;
   }
 
  private:
@@ -107,7 +109,7 @@ class SegmentReader::LineCopier {
 
   bool plausible(const ls_line_record& r, std::uint32_t index) const {
     return r.index == index && r.scan_id == generation_.scan.scan_id && r.first_point % 2 == 0 &&
-           r.first_point <= point_room_ && r.point_count < point_room_ &&
+           r.first_point <= point_room_ &&
            (std::uint64_t{r.point_count} + 1) / 2 * 2 <= point_room_ - r.first_point &&
            serial_fits(r, generation_.scan);
   }
@@ -148,7 +150,6 @@ class SegmentReader::LineCopier {
     } else {
       ++batch_.damaged;
     }
-    if (r.index == generation_.scan.kept_lines) skip_to(generation_.scan.first_serial, cursor, batch_);
     if (r.serial < cursor.next_serial) return;
     skip_to(r.serial, cursor, batch_);
     ++cursor.next_serial;

@@ -61,8 +61,9 @@ bool SegmentReader::wait(Topic topics, Nanoseconds timeout) {
   const auto bits = static_cast<std::uint32_t>(topics);
   bool was_live = true;
   for (Nanoseconds now = start;; now = monotonic_now()) {
-    const bool live = p.examine(now) == Life::live;
-    if (!p.intact() || (was_live && !live && now != start)) return false;
+    const Life life = p.examine(now);
+    const bool live = life == Life::live;
+    if (life == Life::damaged || (was_live && !live && now != start)) return false;
     was_live = live;
     const std::uint32_t before = shared::load(p.header().news);
     if (news(topics)) return true;

@@ -122,7 +122,7 @@ struct PictureInfo {
   std::uint32_t width = 0;   ///< px
   std::uint32_t height = 0;  ///< px
   PixelFormat format = PixelFormat::bgr8;
-  std::string_view name;  ///< file name, may be empty; cut at 63 bytes
+  std::string_view name{};  ///< file name, may be empty; cut at 63 bytes
 };
 
 /// Everything counted; the names are those of ipc/segment_counters.h: Counter::frames_received.

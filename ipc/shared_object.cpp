@@ -121,17 +121,19 @@ Result<void> SharedObject::map(std::size_t at_least, bool prefault) {
 }
 
 Result<void> SharedObject::reserve(std::size_t bytes) const {
-  int error = EINTR;
-  while (error == EINTR) error = ::posix_fallocate(descriptor(), 0, static_cast<off_t>(bytes));
-  if (error == 0) return {};
   struct statvfs space {};
   ::fstatvfs(descriptor(), &space);
-  const double free = static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / kMebibyte;
-  return fail(ErrorCode::full,
-              fmt::format("shared memory {} needs {:.1f} MiB, but /dev/shm has {:.1f} MiB free ({}): free "
-                          "some, enlarge it (mount -o "
-                          "remount,size=...), or choose smaller capacities",
-                          name_, static_cast<double>(bytes) / kMebibyte, free, std::strerror(error)));
+  const std::uint64_t free = std::uint64_t{space.f_bavail} * space.f_frsize;
+  // Asked first, because trying would push everybody else's memory out before it fails.
+  int error = free < bytes ? ENOSPC : EINTR;
+  while (error == EINTR) error = ::posix_fallocate(descriptor(), 0, static_cast<off_t>(bytes));
+  if (error == 0) return {};
+  return fail(
+      ErrorCode::full,
+      fmt::format("shared memory {} needs {:.1f} MiB, but /dev/shm has {:.1f} MiB free ({}): free some, "
+                  "enlarge it (mount -o remount,size=...), or choose smaller capacities",
+                  name_, static_cast<double>(bytes) / kMebibyte, static_cast<double>(free) / kMebibyte,
+                  std::strerror(error)));
 }
 
 ObjectFacts SharedObject::facts() const {
