@@ -28,8 +28,8 @@ void add(T& shared, T value) noexcept {
   __atomic_fetch_add(&shared, value, __ATOMIC_RELAXED);
 }
 
-/// Running sum over 64-bit words that sees swapped, missing and changed words: a = sum of the words, b = sum
-/// of all intermediate a; both modulo 2^64. Cheap enough to be taken while copying.
+/// Running sum over 64-bit words that sees swapped, missing and changed words: a = start + sum of the words,
+/// b = sum of all intermediate a; both modulo 2^64. Cheap enough to be taken while copying.
 class Checksum {
  public:
   void add(std::uint64_t word) noexcept {
@@ -40,7 +40,7 @@ class Checksum {
   std::uint64_t value() const noexcept { return (a_ ^ ((b_ << 32) | (b_ >> 32))) | 1U; }
 
  private:
-  std::uint64_t a_ = 0;
+  std::uint64_t a_ = 0x9e3779b97f4a7c15U;
   std::uint64_t b_ = 0;
 };
 
