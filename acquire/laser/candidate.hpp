@@ -4,17 +4,20 @@
 #include <vector>
 
 #include "acquire/laser/extracted_line.hpp"
+#include "acquire/laser/light_window.hpp"
 
 namespace linescope {
 
 struct Candidate {
   int profile = 0;
-  float centre = 0;     ///< px along the profile
-  float sigma = 0;      ///< px, of the Gaussian of the same width at half height
-  float peak = 0;       ///< grey levels above the background, laser's channel
-  float saturated = 0;  ///< px
-  bool all_channels =
-      false;  ///< the laser's channel is clipped: the middle was looked for in the sum of the three
+  float centre = 0;      ///< px along the profile
+  float sigma = 0;       ///< px, of the Gaussian of the same width at half height
+  float peak = 0;        ///< grey levels above the background, laser's channel
+  float saturated = 0;   ///< px
+  bool clipped = false;  ///< the laser's channel is flat on top
+  LightMix mix{};        ///< the light it was found in
+  LightMix calm_mix{};   ///< LightWindow::calm_mix
+  float structure = 0;   ///< LightWindow::structure
   bool good = true;
   NoPoint fault = NoPoint::no_light;  ///< why not, unless good
 

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "acquire/laser/candidate.hpp"
+#include "acquire/laser/hump.hpp"
+#include "acquire/laser/light_window.hpp"
 #include "acquire/laser/noise_meter.hpp"
-#include "acquire/laser/picture_view.hpp"
 #include "acquire/laser/run_finder.hpp"
 
 namespace linescope {
@@ -17,29 +18,33 @@ class CandidateFinder {
  public:
   explicit CandidateFinder(const LineExtractorOptions& options) : options_(options) {}
 
+  /// Starts a picture. `colour` is the laser's, or mono for grey pictures; `scene` the mean of the picture
+  /// without the laser, in the order of Profile's channels.
+  void begin(LaserColour colour, const ChannelMeans& scene) {
+    colour_ = colour;
+    scene_ = scene;
+  }
+
   /// Appends the candidates of one profile, in ascending order of their middle. `runs` are merged in place
-  /// where a white core separates them. `use_colour` false for grey pictures.
-  void find(const Profile& profile, int index, std::span<Run> runs, bool use_colour,
-            std::vector<Candidate>& out, NoiseMeter& noise);
+  /// where a white core separates them.
+  void find(const Profile& profile, int index, std::span<Run> runs, std::vector<Candidate>& out,
+            NoiseMeter& noise);
 
  private:
-  struct Window;
-  struct Hump;
-  void by_mean(const Profile& profile, int index, Run run, std::vector<Candidate>& out);
-  void by_shape(const Profile& profile, int index, Run run, bool use_colour, std::vector<Candidate>& out,
-                NoiseMeter& noise);
-  void gather(const Profile& profile, Run run);
-  void sum_channels(const Profile& profile);
-  int highest(int from, int to, int box) const;
-  Hump hump_at(int peak, int base) const;
-  bool laser_coloured(const Profile& profile, const Hump& hump) const;
-  Candidate candidate_from(const Profile& profile, int index, const Hump& hump, bool use_colour) const;
   std::size_t merge_across_cores(const Profile& profile, std::span<Run> runs) const;
+  Candidate by_mean(const Profile& profile, Run run) const;
+  void by_shape(Run run, std::vector<Candidate>& out);
+  Candidate candidate_from(const Hump& hump) const;
+  bool has_colour(const Hump& hump) const;
+  bool rises_in_colour(const Hump& hump) const;
+  int excess(int i) const;
 
   LineExtractorOptions options_;
-  int begin_ = 0;  ///< profile index of light_[0]
-  bool all_channels_ = false;
-  std::vector<int> light_;  ///< of the window
+  LaserColour colour_ = LaserColour::mono;
+  ChannelMeans scene_{};
+  int length_ = 0;  ///< of the profile
+  int index_ = 0;
+  LightWindow window_;
 };
 
 }  // namespace linescope

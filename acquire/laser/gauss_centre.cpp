@@ -61,19 +61,20 @@ const GaussCentre::Kernel& GaussCentre::kernel_for(float sigma) const {
 }
 
 /// Averages of `bin` pixels each; behind the ends of the profile the last pixel goes on.
-void GaussCentre::gather(const Profile& p, int first, int count, int bin, bool all_channels) {
+void GaussCentre::gather(const Profile& p, int first, int count, int bin, const LightMix& mix) {
   window_.assign(static_cast<std::size_t>(count) + kLanes, 0);
-  const int channels = all_channels ? 3 : 1;
   const bool inside = first >= 0 && first + count * bin <= p.length;
-  for (int c = 0; c < channels; ++c) {
-    const std::uint8_t* base = p.at[static_cast<std::size_t>(c)];
-    const std::uint8_t* next = base + first * p.step;
+  const std::array share{1.0F, mix[0], mix[1]};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (share[c] == 0) continue;
+    const std::uint8_t* const base = p.at[c];
+    const float scale = share[c] / static_cast<float>(bin);
     for (int i = 0; i < count; ++i) {
       int sum = 0;
-      for (int k = 0; k < bin; ++k, next += p.step) {
-        sum += inside ? *next : base[std::clamp(first + i * bin + k, 0, p.length - 1) * p.step];
+      for (int k = first + i * bin; k < first + (i + 1) * bin; ++k) {
+        sum += base[(inside ? k : std::clamp(k, 0, p.length - 1)) * p.step];
       }
-      window_[static_cast<std::size_t>(i)] += static_cast<float>(sum) / static_cast<float>(bin);
+      window_[static_cast<std::size_t>(i)] += scale * static_cast<float>(sum);
     }
   }
 }
@@ -99,7 +100,8 @@ void GaussCentre::subtract_background(int flank_begin, int flank_end, float midd
     window_[static_cast<std::size_t>(i)] -= mean + slope * static_cast<float>(i - at);
 }
 
-GaussFit GaussCentre::fit(const Profile& profile, float start, float sigma, float noise, bool all_channels) {
+GaussFit GaussCentre::fit(const Profile& profile, float start, float sigma, float noise,
+                          const LightMix& mix) {
   const int bin = std::max(1, static_cast<int>(sigma / kBinned));
   const float in_bins = sigma / static_cast<float>(bin);
   const Kernel& kernel = kernel_for(in_bins);
@@ -107,7 +109,7 @@ GaussFit GaussCentre::fit(const Profile& profile, float start, float sigma, floa
             flank_end = flank_begin + static_cast<int>(std::ceil(1.5F * in_bins));
   const int half = std::max(flank_end, kernel.radius + 2) + 1;
   const int first = static_cast<int>(std::lround(start)) - half * bin - bin / 2;
-  gather(profile, first, 2 * half + 1, bin, all_channels);
+  gather(profile, first, 2 * half + 1, bin, mix);
   const auto index_of = [&](float px) {
     return (px - static_cast<float>(first) - 0.5F * static_cast<float>(bin - 1)) / static_cast<float>(bin);
   };

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "acquire/laser/picture_view.hpp"
+#include "acquire/laser/light_window.hpp"
 
 namespace linescope {
 
 struct GaussFit {
   float centre = 0;      ///< px along the profile
-  float amplitude = 0;   ///< grey levels (of the sum of the channels, where those were asked for)
+  float amplitude = 0;   ///< grey levels of the light that was asked for
   bool settled = false;  ///< false: it wandered off, or there is no light; centre is then the start
 };
 
@@ -23,8 +23,8 @@ class GaussCentre {
   GaussCentre();
 
   /// `start`: within about a sigma of the middle. `sigma`: of the line, px. `noise`: grey levels; decides
-  /// whether a slope of the background is real. `all_channels`: use the sum of the three channels.
-  GaussFit fit(const Profile& profile, float start, float sigma, float noise, bool all_channels);
+  /// whether a slope of the background is real. `mix`: the light to look at.
+  GaussFit fit(const Profile& profile, float start, float sigma, float noise, const LightMix& mix);
 
  private:
   static constexpr int kPhases = 16;
@@ -36,7 +36,7 @@ class GaussCentre {
     std::array<float, kPhases> power{};  ///< sum of the squared weights
   };
   const Kernel& kernel_for(float sigma) const;
-  void gather(const Profile& profile, int first, int count, int bin, bool all_channels);
+  void gather(const Profile& profile, int first, int count, int bin, const LightMix& mix);
   void subtract_background(int flank_begin, int flank_end, float middle, float noise);
 
   std::vector<Kernel> kernels_;

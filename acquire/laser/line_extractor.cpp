@@ -27,6 +27,14 @@ std::uint32_t& at(NoPointCounts& counts, NoPoint reason) {
   return counts[static_cast<std::size_t>(reason)];
 }
 
+/// The three-pixel means of some tens of pixels of pure noise span 2.4 times their standard deviation,
+/// rarely 4.
+constexpr float kMoreThanNoise = 4.5F;
+
+const LightMix& mix_for(const Candidate& c, float noise) {
+  return c.structure > kMoreThanNoise * noise ? c.calm_mix : c.mix;
+}
+
 }  // namespace
 
 struct LineExtractor::Work {
@@ -76,14 +84,17 @@ void LineExtractor::Work::find_candidates(const PictureView& picture) {
   runs.find(picture, rule, options.merge_gap, fastest_row_marker(picture, rule));
   line.crowded = runs.dropped();
   const int profiles = line.profiles();
-  const bool use_colour = picture.channels == 3 && options.colour != LaserColour::mono;
+  const LaserColour colour = picture.channels == 3 ? options.colour : LaserColour::mono;
   const int lead = leading_channel(options.colour);
+  const std::array<float, 3>& scene = runs.ambient();
+  const auto channel = [&](int i) { return scene[static_cast<std::size_t>((lead + i) % 3)]; };
+  finder.begin(colour, {channel(0), channel(1), channel(2)});
   candidates.begin(profiles);
   for (int p = 0; p < profiles; ++p) {
     candidates.first.push_back(static_cast<int>(candidates.all.size()));
     const std::span<Run> found = runs.runs(p);
     if (!found.empty())
-      finder.find(profile_of(picture, options.axis, lead, p), p, found, use_colour, candidates.all, noise);
+      finder.find(profile_of(picture, options.axis, lead, p), p, found, candidates.all, noise);
   }
   candidates.first.push_back(static_cast<int>(candidates.all.size()));
 }
@@ -154,10 +165,10 @@ void LineExtractor::Work::refine(const PictureView& picture) {
     float centre = c.first->centre, peak = c.first->peak;
     if (gauss_wanted) {
       const Profile profile = profile_of(picture, options.axis, lead, c.first->profile);
-      const GaussFit fit = gauss.fit(profile, centre, c.sigma, line.noise, c.first->all_channels);
+      const GaussFit fit = gauss.fit(profile, centre, c.sigma, line.noise, mix_for(*c.first, line.noise));
       if (fit.settled) {
         centre = fit.centre;
-        if (!c.first->all_channels) peak = std::clamp(fit.amplitude, 0.0F, 255.0F);
+        if (!c.first->clipped) peak = std::clamp(fit.amplitude, 0.0F, 255.0F);
       }
     }
     const auto slot = static_cast<float>(c.first->profile);

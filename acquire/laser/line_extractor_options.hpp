@@ -42,7 +42,7 @@ struct LineExtractorOptions {
   int max_saturated = 60;   ///< px; a longer saturated plateau hides where the middle is
   double min_snr = 4.0;     ///< peak above the background over the picture's noise
   double relative_threshold =
-      0.0;  ///< peak over the strong peaks (95th percentile) of the same picture; 0 switches it off; 0..0.95
+      0.1;         ///< peak over the picture's strong peaks (95th percentile); 0 for any; 0..0.95
   int border = 1;  ///< px; a line that reaches this close to the end of its profile may be cut off
 
   // What makes it a line: neighbours.

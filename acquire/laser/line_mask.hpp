@@ -13,7 +13,7 @@ struct MaskRule {
   unsigned on = 2;            ///< bits of LaserColour
   int lead = 1;               ///< leading_channel
   int colour_threshold = 24;  ///< excess from which a pixel is marked; 256 marks none
-  int ridge_threshold = 16;   ///< brightness over both sides from which a pixel is marked; 256 marks none
+  int ridge_threshold = 12;   ///< brightness over both sides from which a pixel is marked; 256 marks none
   int reach = 24;             ///< px to the sides
   ProfileAxis axis = ProfileAxis::column;
 

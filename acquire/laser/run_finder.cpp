@@ -4,6 +4,22 @@
 #include <bit>
 
 namespace linescope {
+namespace {
+
+constexpr int kAmbientRows = 8;  // one row in this many, and one pixel of each group in it
+
+}  // namespace
+
+void RunFinder::sample_ambient(const PictureView& picture, int y) {
+  const std::uint8_t* pixel = picture.data + picture.stride * y;
+  for (const std::uint32_t marks : words_) {
+    if ((marks & 1U) == 0) {
+      for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += pixel[picture.channels == 3 ? c : 0];
+      ++ambient_count_;
+    }
+    pixel += kMaskGroup * picture.channels;
+  }
+}
 
 void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker) {
   const bool columns = rule.axis == ProfileAxis::column;
@@ -11,6 +27,8 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
   const int words = mask_words(picture.width);
   gap_ = merge_gap;
   dropped_ = 0;
+  ambient_sum_ = {};
+  ambient_count_ = 0;
   words_.resize(static_cast<std::size_t>(words));
   runs_.resize(profiles * kMostRuns);
   count_.assign(profiles, 0);
@@ -18,6 +36,11 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
   for (int y = 0; y < picture.height; ++y) {
     marker(picture, rule, y, words_.data());
     columns ? take_columns(y, words) : take_row(y, words);
+    if (y % kAmbientRows == 0) sample_ambient(picture, y);
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    ambient_[c] =
+        ambient_count_ > 0 ? static_cast<float>(ambient_sum_[c]) / static_cast<float>(ambient_count_) : 0;
   }
   if (!columns) return;
   for (std::size_t x = 0; x < profiles; ++x)

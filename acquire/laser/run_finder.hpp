@@ -1,6 +1,7 @@
 // From marked pixels to runs: stretches of one profile that may hold the line.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,13 +33,21 @@ class RunFinder {
 
   std::uint32_t dropped() const { return dropped_; }
 
+  /// Mean of blue, green and red (grey pictures: three times the same) over a sparse grid of pixels that were
+  /// not marked: the colour of the scene without the laser.
+  const std::array<float, 3>& ambient() const { return ambient_; }
+
  private:
   void take_columns(int y, int words);
   void take_row(int y, int words);
   void close(int profile, Run run);
+  void sample_ambient(const PictureView& picture, int y);
 
   int gap_ = 0;
   std::uint32_t dropped_ = 0;
+  std::array<std::uint64_t, 3> ambient_sum_{};
+  std::uint64_t ambient_count_ = 0;
+  std::array<float, 3> ambient_{};
   std::vector<std::uint32_t> words_;
   std::vector<Run> open_;  ///< per column: the run that may still grow; first < 0 for none
   std::vector<Run> runs_;
