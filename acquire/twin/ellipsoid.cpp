@@ -60,7 +60,7 @@ Vector3d Ellipsoid::nearest(const Vector3d& point) const {
   const Vector3d from_centre = point - centre_;
   // In the first octant; a nudge off the axes keeps points of symmetry, where the foot is not unique, well
   // defined.
-  const Vector3d y = from_centre.cwiseAbs().cwiseMax(1e-9);
+  const Vector3d y = from_centre.cwiseAbs().cwiseMax(1e-12);
   const double t = perpendicular_parameter(axes_, y);
   Vector3d foot;
   for (int i = 0; i < 3; ++i) {

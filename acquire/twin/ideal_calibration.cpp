@@ -6,7 +6,6 @@
 
 #include "acquire/twin/fitted_lens.hpp"
 #include "acquire/twin/prism_sheet.hpp"
-#include "common/camera_convention.hpp"
 
 namespace linescope::twin {
 namespace {
@@ -64,7 +63,9 @@ Calibration ideal_calibration(const TwinOptions& options) {
   calibration.name = "digital twin";
   calibration.camera = {lens.width, lens.height, lens.fx, lens.fy, 0, lens.cx, lens.cy, lens.distortion};
   const Plane plane = sheet_plane(options);
-  calibration.laser = {thesis_from_opencv(plane.normal), plane.offset};
+  // The product's plane lives in the thesis's frame, y up. Turned here by hand: a slip of sign must not be
+  // shared.
+  calibration.laser = {Vector3d(plane.normal.x(), -plane.normal.y(), plane.normal.z()), plane.offset};
   calibration.endoscope_from_camera = instrument.endoscope_from_camera;
   calibration.harvester = {instrument.harvester_tip, instrument.harvester_axis};
   calibration.camera_latency = instrument.latency;

@@ -47,7 +47,6 @@ struct SensorOptions {
   double electrons_per_level = 40;  ///< shot noise: variance = level / this; 0 = none
   double bloom = 0.15;  ///< share of what is above saturation that spills to each neighbour along the column
   bool chroma_subsampling = true;  ///< 4:2:2 as UVC cameras send
-  bool eight_bit = true;           ///< false keeps fractions out of the noise only; pictures are always 8 bit
   int motion_samples = 3;          ///< instants per exposure; 1 = no motion blur
 };
 

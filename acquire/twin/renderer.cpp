@@ -24,6 +24,7 @@ Renderer::Renderer(const TwinOptions& options, const Phantom& phantom, const Las
       phantom_(phantom),
       laser_(options.seed, sheet, options.optics),
       tissue_(options.seed, options.optics.light, options.optics.trouble),
+      disturbances_(options.seed, options.optics.trouble),
       sensor_(options.seed, options.optics.sensor),
       view_rays_(options.instrument.lens, options.optics.port, options.optics.prism.medium_index),
       rays_(view_rays_, options.instrument.lens.width, options.instrument.lens.height),
@@ -168,6 +169,7 @@ void Renderer::render(const std::vector<Glance>& glances, std::uint64_t index, c
     if (k != 0 || glances.size() > 1) cast_grid(view, false);
     add_line(view, glances[k].seconds, share, index);
   }
+  disturbances_.add(light_, glances[middle].seconds);
   sensor_.expose(light_, index, bgr);
 }
 

@@ -12,6 +12,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "acquire/twin/disturbances.hpp"
 #include "acquire/twin/image_sensor.hpp"
 #include "acquire/twin/laser_light.hpp"
 #include "acquire/twin/phantom.hpp"
@@ -74,6 +75,7 @@ class Renderer {
   const Phantom& phantom_;
   LaserLight laser_;
   Tissue tissue_;
+  Disturbances disturbances_;
   ImageSensor sensor_;
   ViewRays view_rays_;
   RayTable rays_;

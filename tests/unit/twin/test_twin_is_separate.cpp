@@ -1,0 +1,86 @@
+// The twin and the product must not share code that projects, refracts or triangulates: a common error would
+// cancel out, and every figure of the evaluation would be worth nothing. Checked in what is linked and in
+// what is written.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace linescope::twin {
+namespace {
+
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (pipe && std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()))
+    text += buffer.data();
+  return text;
+}
+
+std::string undefined_symbols() {
+  return output_of(std::string(LINESCOPE_NM) + " --undefined-only --demangle '" + LINESCOPE_TWIN_LIBRARY +
+                   "' 2>/dev/null");
+}
+
+const std::array kForbiddenSymbols{"CameraModel::",    "LineReconstructor", "RayTable::undistort",
+                                   "laser_plane_from", "opencv_from_laser", "baseline_form",
+                                   "cv::undistort",    "cv::projectPoints", "cv::initUndistort",
+                                   "cv::Rodrigues",    "cv::triangulate",   "cv::solvePnP"};
+
+TEST(TwinIsSeparate, LinksNothingThatProjectsOrTriangulates) {
+  const std::string symbols = undefined_symbols();
+  ASSERT_NE(symbols.find("linescope::euler_from_quaternion"), std::string::npos) << "nm found no symbols";
+  for (const char* forbidden : kForbiddenSymbols) {
+    EXPECT_EQ(symbols.find(forbidden), std::string::npos) << forbidden;
+  }
+}
+
+std::vector<std::filesystem::path> sources() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(LINESCOPE_TWIN_SOURCES)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".cpp" || extension == ".hpp") files.push_back(entry.path());
+  }
+  return files;
+}
+
+// Inline functions leave no symbol behind: the text itself must not name them.
+TEST(TwinIsSeparate, SourcesNameNoneOfTheProductsGeometry) {
+  const std::regex forbidden(
+      R"(acquire/reconstruct|acquire/laser/|camera_convention|normalised_from_pixel|pixel_from_normalised|depth_along|)"
+      R"(\.project\(|projectPoints|undistort(Points)?\(|calib3d|scaled_to|thesis_camera)");
+  const auto files = sources();
+  ASSERT_GT(files.size(), 40u);
+  for (const auto& file : files) {
+    std::ifstream stream(file);
+    std::stringstream text;
+    text << stream.rdbuf();
+    std::smatch found;
+    const std::string content = text.str();
+    EXPECT_FALSE(std::regex_search(content, found, forbidden)) << file.filename() << " names " << found.str();
+  }
+}
+
+// And the other way round: the product must not measure with the twin's optics.
+TEST(TwinIsSeparate, ReconstructionDoesNotIncludeTheTwin) {
+  for (const char* folder : {"reconstruct", "laser"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(LINESCOPE_TWIN_SOURCES) / ".." / folder)) {
+      std::ifstream stream(entry.path());
+      std::stringstream text;
+      text << stream.rdbuf();
+      EXPECT_EQ(text.str().find("acquire/twin"), std::string::npos) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace linescope::twin
