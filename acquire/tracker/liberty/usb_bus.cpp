@@ -55,6 +55,25 @@ std::string describe(const UsbFinding& finding) {
   return fmt::format("USB {} ({:04x}:{:04x})", finding.path, kPolhemusVendor, finding.id);
 }
 
+Error usb_open_error(const UsbFinding& finding, int error) {
+  const std::string where = describe(finding);
+  switch (error) {
+    case LIBUSB_ERROR_ACCESS:
+      return {ErrorCode::permission,
+              fmt::format("LIBERTY: no permission to use {}; copy tools/udev/60-linescope-liberty.rules to "
+                          "/etc/udev/rules.d, run 'udevadm control --reload' and plug the unit in again",
+                          where)};
+    case LIBUSB_ERROR_BUSY:
+      return {ErrorCode::busy,
+              fmt::format("LIBERTY: {} is in use by another program; end that one first", where)};
+    case LIBUSB_ERROR_NO_DEVICE:
+      return {ErrorCode::gone, fmt::format("LIBERTY: {} was unplugged while it was being opened", where)};
+    default:
+      return {ErrorCode::unreadable, fmt::format("LIBERTY: {} cannot be opened: {}", where,
+                                                 libusb_strerror(static_cast<libusb_error>(error)))};
+  }
+}
+
 void handle_usb_events(libusb_context* context, Nanoseconds at_most) {
   timeval wait{at_most / kSecond, (at_most % kSecond) / 1000};
   libusb_handle_events_timeout_completed(context, &wait, nullptr);

@@ -25,6 +25,9 @@ struct UsbFinding {
 /// "USB 1-2 (0f44:ff20)"
 std::string describe(const UsbFinding& finding);
 
+/// Why it cannot be opened, from libusb's error code: permission (with the udev rule), busy, gone.
+Error usb_open_error(const UsbFinding& finding, int libusb_error);
+
 class UsbBus {
  public:
   static Result<std::unique_ptr<UsbBus>> open();

@@ -14,23 +14,7 @@ constexpr unsigned kWriteTimeout = 1000;  // ms
 constexpr int kMostErrorsInARow = 16;
 
 tl::unexpected<Error> cannot_open(const UsbFinding& device, int error) {
-  const std::string where = describe(device);
-  switch (error) {
-    case LIBUSB_ERROR_ACCESS:
-      return fail(
-          ErrorCode::permission,
-          fmt::format("LIBERTY: no permission to use {}; copy tools/udev/60-linescope-liberty.rules to "
-                      "/etc/udev/rules.d, run 'udevadm control --reload' and plug the unit in again",
-                      where));
-    case LIBUSB_ERROR_BUSY:
-      return fail(ErrorCode::busy,
-                  fmt::format("LIBERTY: {} is in use by another program; end that one first", where));
-    case LIBUSB_ERROR_NO_DEVICE:
-      return fail(ErrorCode::gone, fmt::format("LIBERTY: {} was unplugged while it was being opened", where));
-    default:
-      return fail(ErrorCode::unreadable, fmt::format("LIBERTY: {} cannot be opened: {}", where,
-                                                     libusb_strerror(static_cast<libusb_error>(error))));
-  }
+  return tl::unexpected(usb_open_error(device, error));
 }
 
 }  // namespace
