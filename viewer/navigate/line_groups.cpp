@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <span>
 
 namespace linescope {
 namespace {
@@ -10,13 +12,22 @@ using Row = LineGroup::Row;
 
 /// Mean over a segment of the ten features, exact for points spread evenly about the mean along a straight
 /// piece.
-Row row_of(const Patch& patch, std::size_t i) {
-  const double x = static_cast<double>(patch.x[i]), y = static_cast<double>(patch.y[i]);
+Row row_of(const Patch& patch, const Quadric& quadric, std::size_t i) {
   const double a = static_cast<double>(patch.sx[i]), b = static_cast<double>(patch.sy[i]);
+  double x = static_cast<double>(patch.x[i]), y = static_cast<double>(patch.y[i]);
+  const auto fitted = [&] {
+    const auto& q = quadric.b;
+    return q[0] + q[1] * x + q[2] * y + q[3] * (x * x + a * a) + q[4] * (x * y + a * b) +
+           q[5] * (y * y + b * b);
+  };
+  const double error = static_cast<double>(patch.z[i]) - fitted();
+  const Eigen::Vector2f& shear = patch.lines[patch.line[i]].shear;
+  x -= error * static_cast<double>(shear.x());
+  y -= error * static_cast<double>(shear.y());
   Row row;
   row << 1, x, y, x * x + a * a, x * y + a * b, y * y + b * b, x * (x * x + 3 * a * a),
       x * (x * y + 2 * a * b) + y * a * a, y * (x * y + 2 * a * b) + x * b * b, y * (y * y + 3 * b * b),
-      static_cast<double>(patch.z[i]);
+      fitted() + error;
   return row;
 }
 
@@ -28,67 +39,104 @@ struct LineSums {
   Row rows = Row::Zero();
   Row rows_along = Row::Zero();
   int segments = 0;
+
+  void add(const Row& row, double w, double s) {
+    weight += w;
+    along += w * s;
+    along_squared += w * s * s;
+    rows += w * row;
+    rows_along += (w * s) * row;
+    ++segments;
+  }
+  double spread() const { return along_squared - along * along / weight; }
 };
+
+/// Places of a patch's lines, by time.
+void sort_by_time(const Patch& patch, std::span<std::uint16_t> order) {
+  for (std::size_t l = 0; l < order.size(); ++l) order[l] = static_cast<std::uint16_t>(l);
+  std::sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) {
+    const PatchLine &p = patch.lines[a], &q = patch.lines[b];
+    return p.time < q.time || (p.time == q.time && p.place < q.place);
+  });
+}
+
+/// Direction of a line, from it and its neighbours in time: a hand does not turn between two frames, so what
+/// differs between neighbours is noise, and would be read as information about the slope across the lines.
+Eigen::Vector2d smoothed_direction(const Patch& patch, std::span<const std::uint16_t> order, std::size_t i) {
+  constexpr std::size_t kNeighbours = 6;
+  constexpr Nanoseconds kApart = 300 * kMillisecond;
+  const PatchLine& line = patch.lines[order[i]];
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  const std::size_t first = i > kNeighbours ? i - kNeighbours : 0;
+  for (std::size_t k = first; k < std::min(order.size(), i + kNeighbours + 1); ++k) {
+    const PatchLine& other = patch.lines[order[k]];
+    if (std::abs(other.time - line.time) > kApart) continue;
+    sum += other.direction.dot(line.direction) < 0 ? Eigen::Vector2f(-other.direction) : other.direction;
+  }
+  return sum.cast<double>().normalized();
+}
 
 }  // namespace
 
 LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segment_floor) {
-  std::array<LineSums, Patch::kMostLines> sums;
   const auto line_count = static_cast<std::size_t>(patch.line_count);
+  std::array<std::uint16_t, Patch::kMostLines> order;
+  const auto by_time = std::span(order).first(line_count);
+  sort_by_time(patch, by_time);
   std::array<Eigen::Vector2d, Patch::kMostLines> directions;
-  for (std::size_t l = 0; l < line_count; ++l)
-    directions[l] = patch.lines[l].direction.cast<double>().normalized();
+  for (std::size_t i = 0; i < line_count; ++i) directions[by_time[i]] = smoothed_direction(patch, by_time, i);
 
-  Eigen::Matrix<double, 11, 11> all = Eigen::Matrix<double, 11, 11>::Zero();
+  std::array<LineSums, Patch::kMostLines> sums;
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
     if (!(patch.weight[i] > 0)) continue;
     const double w = 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor);
-    const Row row = row_of(patch, i);
-    LineSums& sum = sums[patch.line[i]];
-    const double s = directions[patch.line[i]].dot(Eigen::Vector2d(row[1], row[2]));
-    all.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
-    sum.weight += w;
-    sum.along += w * s;
-    sum.along_squared += w * s * s;
-    sum.rows += w * row;
-    sum.rows_along += (w * s) * row;
-    ++sum.segments;
+    const Row row = row_of(patch, quadric, i);
+    within.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
+    sums[patch.line[i]].add(row, w, directions[patch.line[i]].dot(row.segment<2>(1)));
   }
-
-  double freedom = 0;
-  for (std::size_t l = 0; l < line_count; ++l) {
+  for (const std::uint16_t l : by_time) {
     const LineSums& sum = sums[l];
     if (sum.segments == 0) continue;
-    order[static_cast<std::size_t>(size)] = static_cast<std::uint16_t>(size);
     LineGroup& line = lines[static_cast<std::size_t>(size++)];
     line.time = patch.lines[l].time;
     line.offset_row = sum.rows / sum.weight;
     line.offset_variance = 1 / sum.weight;
-    all.selfadjointView<Eigen::Lower>().rankUpdate(line.offset_row, -sum.weight);
-    const double spread = sum.along_squared - sum.along * sum.along / sum.weight;
-    freedom += sum.segments - 1;
+    within.selfadjointView<Eigen::Lower>().rankUpdate(line.offset_row, -sum.weight);
+    within_freedom += sum.segments - 1;
+    const double spread = sum.spread();
     if (sum.segments < 2 || !(spread > 0.01 * sum.weight)) continue;
     line.tilt_row = (sum.rows_along - sum.along * line.offset_row) / spread;
     line.tilt_variance = 1 / spread;
-    all.selfadjointView<Eigen::Lower>().rankUpdate(line.tilt_row, -spread);
-    freedom -= 1;
+    within.selfadjointView<Eigen::Lower>().rankUpdate(line.tilt_row, -spread);
+    within_freedom -= 1;
+    line.tilt_row.segment<2>(1) = directions[l];
   }
+  forget_slopes_within();
+}
 
-  // What remains within the lines tells how much larger the segments' errors are than promised.
-  Row residual = Row::Zero();
-  residual.head<6>() = -quadric.b;
-  residual[10] = 1;
-  const double squares = residual.dot(all.selfadjointView<Eigen::Lower>() * residual);
-  segment_factor = std::max(0.05, (1 + std::max(0.0, squares)) / (1 + std::max(0.0, freedom)));
+/// Within a line, less its offset and its slope, x and y vary by noise only: no information about the
+/// surface's slope. Taken as two free slopes of the lines' own and eliminated.
+void LineGroups::forget_slopes_within() {
+  Eigen::Matrix<double, 11, 11> full = within.selfadjointView<Eigen::Lower>();
+  Eigen::Matrix2d slopes = full.block<2, 2>(1, 1);
+  slopes.diagonal().array() += 1e-9 * full.trace() + 1e-300;
+  const Eigen::Matrix<double, 2, 11> across = full.middleRows<2>(1);
+  full -= across.transpose() * slopes.inverse() * across;
+  full.topRows<3>().setZero();
+  full.leftCols<3>().setZero();
+  within = full;
+}
+
+void LineGroups::scale_to(const Eigen::Matrix<double, 10, 1>& surface) {
+  Row residual;
+  residual << -surface, 1;
+  const double squares = residual.dot(within.selfadjointView<Eigen::Lower>() * residual);
+  const double factor = std::max(0.05, (1 + std::max(0.0, squares)) / (1 + within_freedom));
   for (int i = 0; i < size; ++i) {
-    lines[static_cast<std::size_t>(i)].offset_variance *= segment_factor;
-    lines[static_cast<std::size_t>(i)].tilt_variance *= segment_factor;
+    lines[static_cast<std::size_t>(i)].offset_variance *= factor / segment_factor;
+    lines[static_cast<std::size_t>(i)].tilt_variance *= factor / segment_factor;
   }
-  within_left = all.topLeftCorner<10, 10>() / segment_factor;
-  within_right = all.bottomLeftCorner<1, 10>().transpose() / segment_factor;
-  std::sort(order.begin(), order.begin() + size, [this](std::uint16_t a, std::uint16_t b) {
-    return lines[a].time < lines[b].time || (lines[a].time == lines[b].time && a < b);
-  });
+  segment_factor = factor;
 }
 
 }  // namespace linescope

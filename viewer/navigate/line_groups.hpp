@@ -21,17 +21,27 @@ struct LineGroup {
 };
 
 struct LineGroups {
+  /// `quadric` is the robust fit of the patch: a segment's distance from it is taken as an error along its
+  /// line's view, so the segment belongs to where that view meets the quadric. (Taken where it lies, its x
+  /// and y would carry the same error as its height, and the fit would find the view's direction in the
+  /// noise.)
   LineGroups(const Patch& patch, const Quadric& quadric, double segment_floor);
 
-  const LineGroup& in_time(int i) const { return lines[order[static_cast<std::size_t>(i)]]; }
+  /// Compares what is left within the lines with a surface, and scales the segments' variances to it.
+  void scale_to(const Eigen::Matrix<double, 10, 1>& surface);
+
+  const LineGroup& in_time(int i) const { return lines[static_cast<std::size_t>(i)]; }
 
   int size = 0;
-  std::array<LineGroup, Patch::kMostLines> lines;
-  std::array<std::uint16_t, Patch::kMostLines> order;                                 ///< by time
-  Eigen::Matrix<double, 10, 10> within_left = Eigen::Matrix<double, 10, 10>::Zero();  ///< lower triangle
-  Eigen::Matrix<double, 10, 1> within_right = Eigen::Matrix<double, 10, 1>::Zero();
+  std::array<LineGroup, Patch::kMostLines> lines;  ///< by time
+  /// What is left within the lines: sums of row row^T, lower triangle.
+  Eigen::Matrix<double, 11, 11> within = Eigen::Matrix<double, 11, 11>::Zero();
+  double within_freedom = 0;  ///< segments less what offsets and tilts took
   double segment_factor =
       1;  ///< variance of segments within lines over what their points' deviations promise
+
+ private:
+  void forget_slopes_within();
 };
 
 }  // namespace linescope

@@ -1,4 +1,7 @@
-// One laser line cut at the borders of the grid's cells, each piece summed up robustly.
+// One laser line cut in pieces along itself, each piece summed up robustly.
+//
+// The cuts are planes across the line, not the cells' walls: a wall that runs along the surface would sort
+// the points of one piece by their noise.
 //
 // A piece ("segment") is what the robust estimate works on: some sixty points become one mean with its
 // direction, so that a patch is a few hundred numbers instead of ten thousand points. Within a piece, points
@@ -17,6 +20,7 @@
 namespace linescope {
 
 struct SegmentOptions {
+  double length = 1.0;             ///< of a piece along its line, mm
   double unknown_deviation = 0.1;  ///< standard deviation of a point that does not state one, mm
   double smallest_cut = 0.06;      ///< a point nearer than this to its piece's line is never left out, mm
   double cut = 4.5;                ///< left out beyond this many (robust) standard deviations
@@ -24,7 +28,7 @@ struct SegmentOptions {
   int second_points = 8;           ///< and at least this many
 };
 
-/// A piece of one line within one cell. Object's frame, mm.
+/// A piece of one line. Object's frame, mm.
 struct Segment {
   Eigen::Vector3f mean;    ///< weighted by 1 / sd^2
   Eigen::Vector3f spread;  ///< direction of the piece times the standard deviation of its points along it
@@ -47,36 +51,32 @@ class LineCutter {
  public:
   explicit LineCutter(const SegmentOptions& options) : options_(options) {}
 
-  /// The segments of a line (their `line` is not set), valid until the next call; points that are not finite
-  /// or beyond the grid are left out and counted in `unusable_points()`. `view` must be a unit vector.
+  /// The segments of a line (their `line` is not set), each with the cell its mean lies in, valid until the
+  /// next call; points that are not finite or beyond the grid are left out and counted in
+  /// `unusable_points()`. `view` must be a unit vector.
   const std::vector<CutSegment>& cut(const SurfaceLine& line, const Eigen::Vector3d& view,
                                      const CellGrid& grid);
   std::uint64_t unusable_points() const { return unusable_; }
 
  private:
-  struct Piece {
-    CellIndex cell;
-    std::vector<std::uint32_t> members;
-  };
   struct Sample {
-    double along;
-    double height;
-    double weight;
-    std::uint32_t member;
+    Eigen::Vector3d position;  ///< from the line's origin
+    double along = 0;
+    double height = 0;
+    double deviation = 0;
+    double weight = 1;
+    int piece = 0;
   };
+  using Samples = std::vector<Sample>::iterator;
 
-  Piece& piece_of(const CellIndex& cell);
-  void summarise(const SurfaceLine& line, const Piece& piece, const Eigen::Vector3d& view,
-                 const CellGrid& grid);
-  std::vector<std::uint32_t> emit(const SurfaceLine& line, const Piece& piece,
-                                  const std::vector<std::uint32_t>& members, const Eigen::Vector3d& view,
-                                  const CellGrid& grid);
-  double deviation_of(const SurfacePoint& point) const;
+  void collect(const SurfaceLine& line, const Eigen::Vector3d& view, const CellGrid& grid);
+  void summarise(Samples begin, Samples end, const Eigen::Vector3d& view, const CellGrid& grid);
+  /// Makes a segment of the samples on a straight line and returns where the left-out ones begin.
+  Samples emit(Samples begin, Samples end, const Eigen::Vector3d& view, const CellGrid& grid);
 
   SegmentOptions options_;
-  std::vector<Piece> pieces_;
-  std::size_t used_pieces_ = 0;
-  std::size_t last_piece_ = 0;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();      ///< first usable point of the line
+  Eigen::Vector3d direction_ = Eigen::Vector3d::UnitX();  ///< of the line, across the view
   std::vector<Sample> samples_;
   std::vector<double> residuals_;
   std::vector<CutSegment> segments_;

@@ -7,6 +7,9 @@
 namespace linescope {
 namespace {
 
+constexpr float kGrazing =
+    -0.2f;  // lines that looked at the surface under less than 12 degrees, or from behind
+
 /// From a line's place in the index to its place in the patch: open addressing in fixed room.
 class LineTable {
  public:
@@ -27,7 +30,9 @@ class LineTable {
   int make(const LiveIndex& index, std::uint32_t place, std::size_t slot) {
     if (patch_.line_count == Patch::kMostLines) return -1;
     slots_[slot] = static_cast<std::uint16_t>(patch_.line_count);
-    patch_.lines[slots_[slot]] = {place, index.line(place).time, Eigen::Vector2f::Zero()};
+    PatchLine& line = patch_.lines[slots_[slot]];
+    const Eigen::Vector3f view = patch_.frame.axes().cast<float>().transpose() * index.line(place).view;
+    line = {place, index.line(place).time, Eigen::Vector2f::Zero(), view.head<2>() / view.z()};
     return patch_.line_count++;
   }
 
@@ -49,7 +54,7 @@ class Gatherer {
   void take(const Segment& segment) {
     const Eigen::Vector3f p = axes_.transpose() * (segment.mean - origin_);
     if (p.x() * p.x() + p.y() * p.y() > radius2_ || std::abs(p.z()) > height_) return;
-    if (index_.line(segment.line).view.dot(axes_.col(2)) > -0.05f) return;
+    if (index_.line(segment.line).view.dot(axes_.col(2)) > kGrazing) return;
     const int line = patch_.size < Patch::kMostSegments ? table_.find_or_make(index_, segment.line) : -1;
     if (line < 0) {
       ++patch_.left_over;

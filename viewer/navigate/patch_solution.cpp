@@ -17,10 +17,13 @@ using Matrix = Eigen::Matrix<double, 10, 10>;
 struct OffsetModel {
   double fresh = 0;
   double drift = 0;
+  double log_prior = 0;
 };
 
-/// Share of drift tried, as parts of the offsets' first estimate; equally likely beforehand.
-constexpr std::array<OffsetModel, 4> kModels{{{1.0, 0.0}, {0.8, 0.4}, {0.4, 1.5}, {0.1, 4.0}}};
+/// Tried, as parts of the offsets' first estimate and on top of the stated drift, and how likely each is
+/// beforehand.
+constexpr std::array<OffsetModel, 4> kModels{
+    {{1.0, 0.0, -0.3}, {0.8, 0.8, -1.9}, {0.5, 3.0, -2.6}, {0.2, 8.0, -3.0}}};
 
 struct Normal {
   Matrix left = Matrix::Zero();
@@ -65,9 +68,12 @@ void whiten(const LineGroups& groups, const OffsetModel& model, double drift_tim
 class Solver {
  public:
   Solver(const Patch& patch, const Quadric& quadric, const SolutionOptions& options)
-      : options_(options), groups_(patch, quadric, options.segment_floor) {
-    estimate_noise(quadric);
-    add_common_part(quadric);
+      : options_(options), curvature_(quadric.curvature()), groups_(patch, quadric, options.segment_floor) {
+    Vector first = Vector::Zero();
+    first.head<6>() = quadric.b;
+    measure_noise(first);
+    // Once more with the surface this gives: what the robust quadric could not follow is no noise.
+    measure_noise(evaluate(scaled(kModels[0], offset_variance_)).b);
   }
 
   PatchSolution solve() const {
@@ -75,57 +81,56 @@ class Solver {
     result.lines = groups_.size;
     std::array<Candidate, kModels.size()> candidates;
     for (std::size_t k = 0; k < kModels.size(); ++k) {
-      const OffsetModel first{kModels[k].fresh * offset_variance_, kModels[k].drift * offset_variance_};
-      Candidate candidate = evaluate(first);
-      const double scale = candidate.scale;
-      candidates[k] = evaluate({first.fresh * scale, first.drift * scale});
+      const double scale = evaluate(scaled(kModels[k], offset_variance_)).scale;
+      candidates[k] = evaluate(scaled(kModels[k], offset_variance_ * scale));
+      candidates[k].log_likelihood += kModels[k].log_prior;
     }
     combine(candidates, result);
     return result;
   }
 
  private:
-  void estimate_noise(const Quadric& quadric) {
-    Vector b = Vector::Zero();
-    b.head<6>() = quadric.b;
-    double offsets = 0, tilts = 0;
-    int tilted = 0;
-    for (int i = 0; i < groups_.size; ++i) {
-      const LineGroup& line = groups_.in_time(i);
-      const double e = line.offset_row[10] - line.offset_row.head<10>().dot(b);
-      offsets += std::max(0.0, e * e - line.offset_variance);
-      if (!(line.tilt_variance > 0)) continue;
-      const double t = line.tilt_row[10] - line.tilt_row.head<10>().dot(b);
-      tilts += (t * t - line.tilt_variance) /
-               (1 + line.tilt_variance / (options_.tilt_prior * options_.tilt_prior));
-      ++tilted;
-    }
-    const double lines = std::max(1.0, groups_.size - 3.0);
-    const double prior = options_.prior_lines;
-    offset_variance_ =
-        (prior * options_.line_prior * options_.line_prior + offsets * lines / std::max(groups_.size, 1)) /
-        (prior + lines);
-    const double floor = options_.tilt_prior * options_.tilt_prior;
-    tilt_variance_ = (prior * floor + std::max(0.0, tilts)) / (prior + std::max(0, tilted - 2));
+  OffsetModel scaled(const OffsetModel& parts, double variance) const {
+    return {parts.fresh * variance, parts.drift * variance + options_.drift * options_.drift};
   }
 
-  void add_common_part(const Quadric& quadric) {
-    common_.left = groups_.within_left;
-    common_.right = groups_.within_right;
+  void measure_noise(const Vector& surface) {
+    groups_.scale_to(surface);
+    double offsets = 0, tilts = 0;
+    int tilted = 0;
+    const double usual_tilt = options_.tilt_prior * options_.tilt_prior;
+    for (int i = 0; i < groups_.size; ++i) {
+      const LineGroup& line = groups_.in_time(i);
+      const double e = line.offset_row[10] - line.offset_row.head<10>().dot(surface);
+      offsets += e * e - line.offset_variance;
+      if (!(line.tilt_variance > 0)) continue;
+      const double t = line.tilt_row[10] - line.tilt_row.head<10>().dot(surface);
+      tilts += (t * t - line.tilt_variance) / (1 + line.tilt_variance / usual_tilt);
+      ++tilted;
+    }
+    const double prior = options_.prior_lines;
+    offset_variance_ = (prior * options_.line_prior * options_.line_prior + std::max(0.0, offsets)) /
+                       (prior + std::max(1, groups_.size - 3));
+    tilt_variance_ = (prior * usual_tilt + std::max(0.0, tilts)) / (prior + std::max(0, tilted - 2));
+    gather_common_part();
+  }
+
+  /// What all models of the offsets share: within lines, tilts of lines, expectation of curvature and cubic
+  /// terms.
+  void gather_common_part() {
+    common_.left = groups_.within.topLeftCorner<10, 10>() / groups_.segment_factor;
+    common_.right = groups_.within.bottomLeftCorner<1, 10>().transpose() / groups_.segment_factor;
     for (int i = 0; i < groups_.size; ++i) {
       const LineGroup& line = groups_.in_time(i);
       if (line.tilt_variance > 0)
         common_.add(line.tilt_row.head<10>(), line.tilt_row[10], 1 / (line.tilt_variance + tilt_variance_));
     }
-    const double curvature = quadric.curvature();
-    const double cubic = options_.cubic_share * curvature * curvature + options_.cubic_floor;
-    common_.left(3, 3) += 1 / 0.09;  // curvatures beyond 0.6 / mm are not expected
-    common_.left(4, 4) += 1 / 0.36;
-    common_.left(5, 5) += 1 / 0.09;
-    common_.left(6, 6) += 1 / (cubic * cubic);
-    common_.left(7, 7) += 1 / (3 * cubic * cubic);
-    common_.left(8, 8) += 1 / (3 * cubic * cubic);
-    common_.left(9, 9) += 1 / (cubic * cubic);
+    const double cubic = options_.cubic_share * curvature_ * curvature_ + options_.cubic_floor;
+    const double tight = 1 / (cubic * cubic),
+                 loose = 1 / (options_.largest_curvature * options_.largest_curvature);
+    common_.left.diagonal().tail<7>() +=
+        (Eigen::Matrix<double, 7, 1>() << 4 * loose, loose, 4 * loose, tight, tight / 3, tight / 3, tight)
+            .finished();
   }
 
   Candidate evaluate(const OffsetModel& model) const {
@@ -171,7 +176,7 @@ class Solver {
     for (const Candidate& c : candidates) {
       const double p = std::exp(c.log_likelihood - best) / total;
       const Eigen::Vector2d apart = (c.b - result.surface.b).segment<2>(1);
-      result.slope_covariance += p * (c.scale * c.covariance.block<2, 2>(1, 1) + apart * apart.transpose());
+      result.slope_covariance += p * (c.covariance.block<2, 2>(1, 1) + apart * apart.transpose());
     }
     result.degrees_of_freedom = std::max(1.0, groups_.size - 3.0) + options_.prior_lines;
     result.offset_deviation = std::sqrt(offset_variance_);
@@ -179,6 +184,7 @@ class Solver {
   }
 
   SolutionOptions options_;
+  double curvature_;
   LineGroups groups_;
   Normal common_;
   double offset_variance_ = 0;

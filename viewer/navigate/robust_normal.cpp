@@ -155,9 +155,8 @@ Result<void> validate(const RobustNormalOptions& o) {
   if (!(o.unseen_tilt >= 0 && o.axis_tilt >= 0 && o.tip_deviation >= 0))
     return fail(ErrorCode::invalid,
                 "normal estimate: standard deviations of tilts and tip must not be negative");
-  if (o.robust.rounds < 2 || !(o.robust.cut > 0) || !(o.robust.smallest_scale > 0))
-    return fail(ErrorCode::invalid,
-                "normal estimate: robust fit needs 2 rounds or more, a positive cut and a positive scale");
+  if (!(o.robust.cut > 0) || !(o.robust.smallest_scale > 0) || !(o.robust.usual_curvature > 0))
+    return fail(ErrorCode::invalid, "normal estimate: robust fit needs a positive cut, scale and curvature");
   if (!(o.foot.reach_ahead >= 0 && o.foot.reach_behind >= 0))
     return fail(ErrorCode::invalid, "normal estimate: reaches along the axis must not be negative");
   if (o.support.fewest_points < 6 || o.support.fewest_lines < 3)

@@ -33,7 +33,8 @@ class Reweighting {
       patch.x[i] = patch.y[i] = patch.z[i] = patch.sx[i] = patch.sy[i] = patch.weight[i] = 0;
   }
 
-  bool solve() {
+  /// `ridge`: how strongly curvature is held back, in units of weight times mm^2 (a segment weighs 1).
+  bool solve(double ridge) {
     const Sums sums = accumulate();
     Eigen::Matrix<double, 6, 6> normal;
     Eigen::Matrix<double, 6, 1> right;
@@ -42,6 +43,8 @@ class Reweighting {
       for (int c = r; c < 6; ++c, ++k) normal(r, c) = normal(c, r) = static_cast<double>(sums[k].sum());
     for (int r = 0; r < 6; ++r, ++k) right(r) = static_cast<double>(sums[k].sum());
     normal.diagonal().array() += 1e-6 * normal(0, 0);
+    const double per_radius = static_cast<double>(inverse_radius_ * inverse_radius_);
+    normal.diagonal().tail<3>().array() += ridge * per_radius * per_radius;
     const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(normal);
     if (!(normal(0, 0) > 0) || factor.info() != Eigen::Success) return false;
     beta_ = factor.solve(right).cast<float>();
@@ -57,17 +60,21 @@ class Reweighting {
     }
   }
 
-  float robust_scale() {
-    std::copy_n(residuals_.begin(), patch_.size, sorted_.begin());
-    const auto middle = sorted_.begin() + patch_.size / 2;
-    std::nth_element(sorted_.begin(), middle, sorted_.begin() + patch_.size);
+  /// Median of the residuals within a distance from the foot, as a standard deviation.
+  float robust_scale(float reach) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch_.size); ++i)
+      if (squared_distance(i) <= reach * reach) sorted_[n++] = residuals_[i];
+    if (n == 0) return 0;
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(n));
     return 1.4826f * *middle;
   }
 
   template <class Weight>
-  void reweigh(Weight&& weight) {
+  void reweigh(float reach, Weight&& weight) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch_.size); ++i)
-      patch_.weight[i] = weight(residuals_[i]);
+      patch_.weight[i] = squared_distance(i) <= reach * reach ? weight(residuals_[i]) : 0.0f;
   }
 
   Eigen::Matrix<double, 6, 1> coefficients() const {
@@ -79,6 +86,10 @@ class Reweighting {
   }
 
  private:
+  float squared_distance(std::size_t i) const {
+    return patch_.x[i] * patch_.x[i] + patch_.y[i] * patch_.y[i];
+  }
+
   Sums accumulate() const {
     Sums sums;
     sums.fill(Lane::Zero());
@@ -112,29 +123,36 @@ double Quadric::curvature() const {
 }
 
 Quadric fit_robust_quadric(Patch& patch, const RobustOptions& options) {
+  // What lies at the foot is the surface that is meant. The fit starts there and grows: a flap of tissue
+  // beside it can tilt a fit over the whole patch, but not one that has to agree with the middle first.
+  constexpr std::array<float, 7> kGrowth{0.4f, 0.4f, 0.55f, 0.75f, 1.0f, 1.0f, 1.0f};
+  constexpr std::size_t kAbsoluteRounds = 2;
   Quadric result;
   if (patch.size < 6) return result;
   Reweighting work(patch);
-  const auto floor = static_cast<float>(options.smallest_scale);
-  const auto cut = static_cast<float>(options.cut);
-  work.reweigh([](float) { return 1.0f; });
+  const auto floor = static_cast<float>(options.smallest_scale), cut = static_cast<float>(options.cut);
+  const auto radius = static_cast<float>(patch.radius);
+  work.reweigh(kGrowth[0] * radius, [](float) { return 1.0f; });
   float scale = floor;
-  for (int round = 0; round < options.rounds; ++round) {
-    if (!work.solve()) return result;
+  for (std::size_t round = 0; round < kGrowth.size(); ++round) {
+    const double s = static_cast<double>(scale) / options.usual_curvature;
+    if (!work.solve(s * s)) return result;
     work.compute_residuals();
-    if (2 * round < options.rounds) {
-      work.reweigh([&](float r) { return 1 / std::max(r, floor); });
+    const float reach = kGrowth[std::min(round + 1, kGrowth.size() - 1)] * radius;
+    if (round < kAbsoluteRounds) {
+      scale = std::max(floor, work.robust_scale(kGrowth[round] * radius));
+      work.reweigh(reach, [&](float r) { return scale / std::max(r, scale); });
       continue;
     }
-    scale = std::max(floor, work.robust_scale());
-    const float reach = 1 / (cut * 1.25f * scale);
-    work.reweigh([&](float r) {
-      const float u = std::max(0.0f, 1 - r * r * reach * reach);
+    scale = std::max(floor, work.robust_scale(kGrowth[round] * radius));
+    const float inverse = 1 / (1.25f * cut * scale);
+    work.reweigh(reach, [&](float r) {
+      const float u = std::max(0.0f, 1 - r * r * inverse * inverse);
       return u * u;
     });
   }
   const float limit = cut * scale;
-  work.reweigh([&](float r) { return r <= limit ? 1.0f : 0.0f; });
+  work.reweigh(radius, [&](float r) { return r <= limit ? 1.0f : 0.0f; });
   result.b = work.coefficients();
   result.scale = static_cast<double>(scale);
   for (int i = 0; i < patch.size; ++i) result.used += patch.weight[static_cast<std::size_t>(i)] > 0;

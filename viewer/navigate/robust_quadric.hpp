@@ -8,9 +8,10 @@
 namespace linescope {
 
 struct RobustOptions {
-  double cut = 4.0;  ///< a segment farther from the surface than this many robust deviations is not used
+  double cut = 3.2;  ///< a segment farther from the surface than this many robust deviations is not used
   double smallest_scale = 0.03;  ///< the robust deviation is taken as at least this, mm
-  int rounds = 8;                ///< of re-weighting
+  double usual_curvature =
+      0.05;  ///< holds the fit back while it is still small: stronger curvature needs evidence, 1/mm
 };
 
 /// z = b0 + b1 x + b2 y + b3 x^2 + b4 xy + b5 y^2 in the patch's frame, mm.
@@ -23,7 +24,7 @@ struct Quadric {
   double curvature() const;
 };
 
-/// Re-weighted least squares, first by absolute values (not bent by a minority), then bi-weight. Sets
+/// Re-weighted least squares that grows from the foot outwards. Sets
 /// patch.weight: 0 for what does not belong to the surface, otherwise 1. `used` is 0 when the segments do not
 /// determine a quadric.
 Quadric fit_robust_quadric(Patch& patch, const RobustOptions& options);
