@@ -75,9 +75,11 @@ void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
       "laser.centre", laser.centre,
       {{"gauss-weighted", CentreMethod::gauss_weighted}, {"weighted-mean", CentreMethod::weighted_mean}},
       "Middle of the line: Gauss-weighted, or the plain weighted mean of the thesis.");
-  schema.integer("laser.colour_threshold", laser.colour_threshold, {.unit = "grey levels", .min = 1, .max = 254},
+  schema.integer("laser.colour_threshold", laser.colour_threshold,
+                 {.unit = "grey levels", .min = 1, .max = 254},
                  "Colour excess from which a pixel may belong to the line.");
-  schema.integer("laser.ridge_threshold", laser.ridge_threshold, {.unit = "grey levels", .min = 0, .max = 254},
+  schema.integer("laser.ridge_threshold", laser.ridge_threshold,
+                 {.unit = "grey levels", .min = 0, .max = 254},
                  "Or this much brighter than both sides in the laser's channel; 0: off.");
   schema.number("laser.relative_threshold", laser.relative_threshold, {.min = 0, .max = 0.95},
                 "Peak over the strong peaks of the same picture, at least; 0: off.");

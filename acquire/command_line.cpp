@@ -56,8 +56,15 @@ void declare_options(CLI::App& app, Typed& typed) {
                   "Play recorded and simulated sources as fast as possible");
   assignment_flag(app, typed, "--exit-at-end", "run.exit_at_end=true",
                   "End when a recorded source is through");
-  app.add_option("--set", typed.assignments, "Any key of the configuration file, may be repeated")
-      ->type_name("KEY=VALUE");
+  app.add_option_function<std::vector<std::string>>(
+         "--set",
+         [&typed](const std::vector<std::string>& values) {
+           typed.assignments.insert(typed.assignments.end(), values.begin(), values.end());
+         },
+         "Any key of the configuration file, may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--check", typed.check, "Check configuration, calibration and sources; start nothing");
   app.add_flag("--print-config", typed.print_config, "Print the effective configuration and end");
   app.add_flag("--list", typed.list, "List the cameras of this machine and end");

@@ -79,6 +79,7 @@ tl::expected<Sources, Refusal> twin_sources(const AcquireOptions& options, Nanos
   sources.camera = std::make_unique<twin::TwinCamera>(*experiment);
   sources.tracker = std::make_unique<twin::TwinTracker>(*experiment);
   sources.calibration = (*experiment)->calibration();
+  if (auto ok = sources.camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
   return sources;
 }
 
@@ -143,6 +144,8 @@ tl::expected<Sources, Refusal> other_sources(const AcquireOptions& options, Nano
   auto camera = camera_source(options, sources.calibration.camera, start);
   if (!camera) return refuse(ExitCode::camera, camera.error().message);
   sources.camera = std::move(*camera);
+  // Started before the poses are read: a folder without pictures is the camera's fault, not the pose file's.
+  if (auto ok = sources.camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
   if (options.tracker.source == "none") return sources;
   auto tracker = pose_file(options, sources.calibration.camera_latency, start);
   if (!tracker) return refuse(ExitCode::tracker, tracker.error().message);
@@ -161,7 +164,6 @@ tl::expected<Sources, Refusal> make_sources(const AcquireOptions& options, Nanos
     sources->calibration = std::move(*calibration);
   }
   if (auto ok = validate(sources->calibration); !ok) return refuse(ExitCode::calibration, ok.error().message);
-  if (auto ok = sources->camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
   if (sources->tracker) {
     if (auto ok = sources->tracker->start(); !ok) return refuse(ExitCode::tracker, ok.error().message);
   }

@@ -129,7 +129,13 @@ TEST_F(BadInput, BaselineOfSixMetres) {
   Calibration c = thesis_camera_ii();
   c.laser.offset *= 1000;
   EXPECT_FALSE(save_calibration(c, folder_.path() / "refused.yaml"));
-  spoil_calibration("-5.8217743576559801e+00", "-5.8217743576559801e+03");
+  // The plane's last number is its distance, written with an exponent: six metres instead of six millimetres.
+  std::ifstream in(calibration());
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto exponent = text.rfind("e+00", text.find(']', text.find("laser_plane")));
+  ASSERT_NE(exponent, std::string::npos) << text;
+  text.replace(exponent, 4, "e+03");
+  write(calibration(), text);
   expect_refused(arguments(), 4, {"calibration.yaml", "millimetres"});
 }
 

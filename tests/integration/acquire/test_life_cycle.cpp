@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <utility>
+
 #include "ipc/control.hpp"
 #include "tests/integration/acquire/daemon_under_test.hpp"
 
@@ -9,7 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-CommandAnswer ask(const SegmentReader& reader, const Command& command) {
+CommandAnswer ask(const SegmentReader& reader, CommandKind kind, double number = 0, std::string text = {}) {
+  const Command command{kind, number, std::move(text)};
   auto client = ControlClient::open(reader);
   if (!client) return {AnswerKind::lost, client.error().message};
   auto id = client->send(command);
@@ -54,9 +57,10 @@ TEST(LifeCycle, AKilledDaemonIsNoticedAndReplaced) {
   ASSERT_TRUE(first.process().wait(10s));
   EXPECT_TRUE(eventually([&] { return reader->life(monotonic_now()) != Life::live; }, 2s));
   DaemonUnderTest second({"--scan"}, first.segment());
+  EXPECT_TRUE(eventually([&] { return reader->life(monotonic_now()) == Life::replaced; }))
+      << second.process().standard_error();
   auto again = second.attach();
   ASSERT_TRUE(again) << second.process().standard_error();
-  EXPECT_TRUE(eventually([&] { return reader->life(monotonic_now()) == Life::replaced; }, 2s));
   EXPECT_NE(again->identity().session_id, reader->identity().session_id);
   EXPECT_TRUE(eventually([&] { return counter(*again, Counter::lines_published) > 0; }));
 }
@@ -68,18 +72,18 @@ TEST(LifeCycle, CommandsStartStopClearAndUndo) {
   ASSERT_TRUE(eventually([&] { return counter(*reader, Counter::frames_not_scanning) > 5; }));
   EXPECT_EQ(counter(*reader, Counter::lines_published), 0u);
 
-  EXPECT_EQ(ask(*reader, {CommandKind::start}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::start).kind, AnswerKind::done);
   ASSERT_TRUE(eventually([&] { return whole_scan(*reader).lines.size() > 20; }));
-  EXPECT_EQ(ask(*reader, {CommandKind::stop}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::stop).kind, AnswerKind::done);
   const std::size_t first_sweep = whole_scan(*reader).lines.size();
-  EXPECT_EQ(ask(*reader, {CommandKind::start}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::start).kind, AnswerKind::done);
   ASSERT_TRUE(eventually([&] { return whole_scan(*reader).lines.size() > first_sweep + 20; }));
-  EXPECT_EQ(ask(*reader, {CommandKind::stop}).kind, AnswerKind::done);
-  EXPECT_EQ(ask(*reader, {CommandKind::undo_sweep}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::stop).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::undo_sweep).kind, AnswerKind::done);
   EXPECT_EQ(whole_scan(*reader).lines.size(), first_sweep);
-  EXPECT_EQ(ask(*reader, {CommandKind::undo_sweep}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::undo_sweep).kind, AnswerKind::done);
   EXPECT_EQ(whole_scan(*reader).lines.size(), 0u);
-  const CommandAnswer nothing_left = ask(*reader, {CommandKind::undo_sweep});
+  const CommandAnswer nothing_left = ask(*reader, CommandKind::undo_sweep);
   EXPECT_EQ(nothing_left.kind, AnswerKind::refused);
   EXPECT_NE(nothing_left.text.find("no sweep"), std::string::npos);
 }
@@ -91,8 +95,8 @@ TEST(LifeCycle, SaveWritesAScanThatAnIndependentReaderCounts) {
   auto reader = daemon.attach();
   ASSERT_TRUE(reader) << daemon.process().standard_error();
   ASSERT_TRUE(eventually([&] { return whole_scan(*reader).lines.size() > 30; }));
-  ASSERT_EQ(ask(*reader, {CommandKind::stop}).kind, AnswerKind::done);
-  const CommandAnswer saved = ask(*reader, {CommandKind::save, 0, file.string()});
+  ASSERT_EQ(ask(*reader, CommandKind::stop).kind, AnswerKind::done);
+  const CommandAnswer saved = ask(*reader, CommandKind::save, 0, file.string());
   EXPECT_EQ(saved.kind, AnswerKind::done) << saved.text;
   const std::size_t points = whole_scan(*reader).points.size();
   EXPECT_EQ(saved.text, std::to_string(points) + " points saved");
@@ -101,7 +105,7 @@ TEST(LifeCycle, SaveWritesAScanThatAnIndependentReaderCounts) {
   EXPECT_GT(std::filesystem::file_size(file), points * 24);
   EXPECT_LT(std::filesystem::file_size(file), points * 24 + 1000);
 
-  const CommandAnswer nowhere = ask(*reader, {CommandKind::save, 0, "/no/such/folder/scan.ply"});
+  const CommandAnswer nowhere = ask(*reader, CommandKind::save, 0, "/no/such/folder/scan.ply");
   EXPECT_EQ(nowhere.kind, AnswerKind::refused);
   EXPECT_NE(nowhere.text.find("/no/such/folder"), std::string::npos);
 }
@@ -110,9 +114,9 @@ TEST(LifeCycle, WhatCannotBeDoneIsRefusedWithAReason) {
   DaemonUnderTest daemon({});
   auto reader = daemon.attach();
   ASSERT_TRUE(reader) << daemon.process().standard_error();
-  EXPECT_EQ(ask(*reader, {CommandKind::laser_brightness, 0.5}).kind, AnswerKind::refused);
-  EXPECT_EQ(ask(*reader, {CommandKind::exposure, 5}).kind, AnswerKind::refused);
-  EXPECT_EQ(ask(*reader, {CommandKind::shut_down}).kind, AnswerKind::done);
+  EXPECT_EQ(ask(*reader, CommandKind::laser_brightness, 0.5).kind, AnswerKind::refused);
+  EXPECT_EQ(ask(*reader, CommandKind::exposure, 5).kind, AnswerKind::refused);
+  EXPECT_EQ(ask(*reader, CommandKind::shut_down).kind, AnswerKind::done);
   const auto end = daemon.process().wait(10s);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->code, 0);

@@ -16,7 +16,9 @@ struct Deviation {
 };
 
 /// Distance of every point to the phantom, in the frame of the object's sensor as the tracker saw it.
-Deviation deviation(const LineBatch& scan, const twin::TwinTruth& truth) {
+Deviation deviation(const LineBatch& scan, const twin::TwinOptions& options) {
+  const auto experiment = twin::VirtualExperiment::create(options).value();
+  const twin::TwinTruth& truth = experiment->truth();
   Deviation d;
   for (const Line& line : scan.lines) {
     if (line.object.state != ToolState::ok) continue;
@@ -50,7 +52,7 @@ twin::TwinOptions options_with(const std::string& noise) {
 }
 
 TEST(TwinScan, WithoutNoiseThePointsLieOnThePhantom) {
-  const Deviation d = deviation(scan_with("ideal"), twin::TwinTruth(options_with("ideal")));
+  const Deviation d = deviation(scan_with("ideal"), options_with("ideal"));
   std::printf("ideal twin: %zu points, rms %.4f mm\n", d.points, d.rms);
   EXPECT_GT(d.points, 10'000u);
   // Rendering in 8 bit limits it: see docs/twin.md.
@@ -58,7 +60,7 @@ TEST(TwinScan, WithoutNoiseThePointsLieOnThePhantom) {
 }
 
 TEST(TwinScan, WithTheManufacturersTrackerTheErrorIsWhatTheTrackerAllows) {
-  const Deviation d = deviation(scan_with("manufacturer"), twin::TwinTruth(options_with("manufacturer")));
+  const Deviation d = deviation(scan_with("manufacturer"), options_with("manufacturer"));
   std::printf("manufacturer twin: %zu points, rms %.4f mm\n", d.points, d.rms);
   EXPECT_GT(d.points, 10'000u);
   // 0.76 mm RMS per sensor, two sensors: a chain far worse than that has a fault of its own, far better would
