@@ -1,5 +1,7 @@
 #include "viewer/surface/cell_moments.hpp"
 
+#include "viewer/surface/line_quantizer.hpp"
+
 namespace linescope {
 namespace {
 
@@ -8,20 +10,31 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {0, 1}, {0, 
 
 }  // namespace
 
-CellStatistics statistics_of(const MomentCell& cell) {
+void CellContent::add_line(const MomentSums& line, const std::array<std::int32_t, 3>& towards_camera) {
+  sums.add(line);
+  ++lines;
+  const double inverse = 1.0 / static_cast<double>(line.weight());
+  for (std::size_t i = 0; i < 6; ++i)
+    lines_apart[i] += static_cast<std::int64_t>(static_cast<double>(line.first[kPairs[i][0]]) *
+                                                    static_cast<double>(line.first[kPairs[i][1]]) * inverse +
+                                                0.5);
+  for (std::size_t i = 0; i < 3; ++i) towards[i] += towards_camera[i];
+}
+
+CellStatistics statistics_of(const CellContent& cell) {
   const MomentSums& s = cell.sums;
   CellStatistics result;
   if (!cell.occupied()) return result;
-  const std::array<std::int64_t, 3> first{s.x, s.y, s.z};
-  const std::array<std::int64_t, 6> second{s.xx, s.xy, s.xz, s.yy, s.yz, s.zz};
-  const double inverse = 1.0 / static_cast<double>(s.w);
+  const std::array<std::int64_t, 6> second{s.squares[0], s.products[0], s.products[2],
+                                           s.squares[1], s.products[1], s.squares[2]};
+  const double inverse = 1.0 / static_cast<double>(s.weight());
   constexpr double unit = 1.0 / kSteps;
-  result.weight = static_cast<double>(s.w);
-  result.points = static_cast<double>(s.points);
+  result.weight = static_cast<double>(s.weight());
+  result.points = static_cast<double>(s.points());
   result.lines = cell.lines;
   std::array<double, 3> mean{};  // in steps
   for (std::size_t i = 0; i < 3; ++i) {
-    mean[i] = static_cast<double>(first[i]) * inverse;
+    mean[i] = static_cast<double>(s.first[i]) * inverse;
     result.mean[i] = (mean[i] + 0.5) * unit;  // a point lies in the middle of its step
     result.towards[i] = cell.towards[i] * (1.0 / 256);
   }

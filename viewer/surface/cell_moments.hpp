@@ -6,67 +6,52 @@
 #include <array>
 #include <cstdint>
 
-#include "viewer/surface/block_table.hpp"
-
 namespace linescope {
 
-/// A cube's edge has so many fixed-point steps: 0.6 um at t = 1.27 mm.
-inline constexpr int kStepBits = 11;
-inline constexpr int kSteps = 1 << kStepBits;
+/// Weighted moments about the cube's lowest corner, in steps (line_quantizer.hpp). Grouped as the processor
+/// adds them.
+struct alignas(32) MomentSums {
+  std::array<std::int64_t, 4> first{};     ///< x y z and the weight itself
+  std::array<std::int64_t, 4> squares{};   ///< xx yy zz; the fourth counts points
+  std::array<std::int64_t, 4> products{};  ///< xy yz zx; the fourth counts points, too
 
-/// Weight of a point with the typical standard deviation; others get 1 to 16.
-inline constexpr int kTypicalWeight = 4;
-
-/// Weighted moments about the cube's lowest corner, in steps.
-struct MomentSums {
-  std::int64_t w = 0;
-  std::int64_t x = 0, y = 0, z = 0;
-  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  std::int64_t points = 0;
+  std::int64_t weight() const { return first[3]; }
+  std::int64_t points() const { return squares[3]; }
 
   void add(const MomentSums& other) {
-    w += other.w;
-    x += other.x;
-    y += other.y;
-    z += other.z;
-    xx += other.xx;
-    xy += other.xy;
-    xz += other.xz;
-    yy += other.yy;
-    yz += other.yz;
-    zz += other.zz;
-    points += other.points;
+    for (std::size_t i = 0; i < 4; ++i) {
+      first[i] += other.first[i];
+      squares[i] += other.squares[i];
+      products[i] += other.products[i];
+    }
   }
 };
 
-struct MomentCell {
+/// Everything a cube knows; what an undo puts back.
+struct CellContent {
   MomentSums sums;
   std::array<std::int64_t, 6>
-      lines_apart{};  ///< sum over lines of (sum of the line)(the same)^T / its weight: xx xy xz yy yz zz
+      lines_apart{};  ///< sum over lines of (their sum)(the same)^T / their weight: xx xy xz yy yz zz
   std::array<std::int32_t, 3> towards{};  ///< sum over lines of the unit vector to the camera, 1/256
   std::int32_t lines = 0;                 ///< lines with a point here
 
-  GridIndex at;
-  std::int32_t block = BlockTable::kNone;
-  std::uint32_t sweep = 0;     ///< the sweep that last changed it
-  std::uint32_t line = 0;      ///< the line that last changed it ...
-  std::int32_t line_slot = 0;  ///< ... and its place in that line's list
-  bool changed = false;        ///< is among MomentGrid::changed()
+  bool occupied() const { return sums.points() != 0; }
 
-  bool occupied() const { return sums.points != 0; }
+  /// Takes in one line's points of this cube; `towards_camera` in 1/256.
+  void add_line(const MomentSums& line, const std::array<std::int32_t, 3>& towards_camera);
 };
 
 /// The same as means, in units of the interval: what fits are made of.
 struct CellStatistics {
   double weight = 0;
   double points = 0;
+  double lines = 0;
   std::array<double, 3> mean{};         ///< from the cube's lowest corner, 0..1
   std::array<double, 6> covariance{};   ///< of the points about the mean: xx xy xz yy yz zz
   std::array<double, 6> lines_apart{};  ///< weighted sum over lines of (their mean - the mean)(the same)^T
   std::array<double, 3> towards{};      ///< sum of unit vectors to the camera, one per line
-  double lines = 0;
 };
 
-CellStatistics statistics_of(const MomentCell& cell);
+CellStatistics statistics_of(const CellContent& cell);
 
 }  // namespace linescope

@@ -2,8 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <utility>
 
-#include "viewer/surface/point_gate.hpp"
+#include "viewer/surface/point_tile.hpp"
 
 namespace linescope {
 namespace {
@@ -21,29 +22,29 @@ void normals_from_triangles(TriangleMesh& mesh) {
 
 CubesMesher::CubesMesher(const MesherOptions& options)
     : options_(options),
-      inverse_interval_(1.0 / options.interval),
       sweeps_(options.sweep_pause),
+      quantizer_(options),
+      tile_(kMaxTile),
       grid_(options.method == MeshMethod::classical_cubes ? options.isovalue : 0.5, options.max_memory) {}
 
 void CubesMesher::add_line(const SurfaceLine& line) {
-  if (!PointGate::admits_line(line)) {
+  const PlacedLine placed = quantizer_.place(line, counters_);
+  if (placed.usable() == 0) {
     ++counters_.lines_refused;
     return;
   }
-  const PointGate gate(options_, line);
-  const double inverse = inverse_interval_;
+  if (sweeps_.begins_with(line.time)) grid_.begin_sweep();
   const std::uint64_t before = counters_.points;
-  for (const SurfacePoint& point : line.points) {
-    if (!gate.admits(point)) {
-      gate.count_refusal(point, counters_);
-      continue;
-    }
-    if (counters_.points == before && sweeps_.begins_with(line.time)) grid_.begin_sweep();
-    const Eigen::Vector3f& p = point.position;
-    const bool placed = grid_.add(
-        {nearest_vertex(p.x(), inverse), nearest_vertex(p.y(), inverse), nearest_vertex(p.z(), inverse)});
-    ++(placed ? counters_.points : counters_.no_room);
-  }
+  for_each_tile(placed.points, placed.bounds, kToNearestVertex,
+                [&](std::span<const PlacedPoint> part, const TileBox& box) {
+                  count_points(part, kToNearestVertex, box, tile_.data());
+                  for (int i = 0; i < box.volume(); ++i) {
+                    const std::uint32_t found = std::exchange(tile_[static_cast<std::size_t>(i)], 0);
+                    if (found == 0) continue;
+                    const bool room = grid_.add(placed.corner + box.place(i), found);
+                    (room ? counters_.points : counters_.no_room) += found;
+                  }
+                });
   ++(counters_.points > before ? counters_.lines : counters_.lines_refused);
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "viewer/surface/cube_blocks.hpp"
+#include "viewer/surface/line_quantizer.hpp"
 #include "viewer/surface/mesher.hpp"
 #include "viewer/surface/sweep_tracker.hpp"
 #include "viewer/surface/vertex_grid.hpp"
@@ -41,8 +42,9 @@ class CubesMesher final : public Mesher {
   bool classical() const { return options_.method == MeshMethod::classical_cubes; }
 
   MesherOptions options_;
-  double inverse_interval_;
   SweepTracker sweeps_;
+  LineQuantizer quantizer_;
+  std::vector<std::uint32_t> tile_;  // all zero between lines
   VertexGrid grid_;
   CubeBlocks cubes_;
   MesherCounters counters_;

@@ -1,6 +1,7 @@
 #include "viewer/surface/distance_field.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "viewer/surface/cube_table.hpp"
@@ -34,11 +35,11 @@ struct Stamp {
 
 Stamp stamp_of(const SurfacePatch& patch, int sign) {
   const std::int64_t weight =
-      sign * std::clamp<std::int64_t>(std::llround(patch.weight / kTypicalWeight), 1, kMaxWeight);
+      sign * std::clamp<std::int64_t>(fixed(patch.weight, 1.0 / kTypicalWeight), 1, kMaxWeight);
   Stamp stamp{weight,
               {},
               weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit),
-              sign * std::llround(patch.points)};
+              sign * fixed(patch.points, 1)};
   for (std::size_t i = 0; i < 3; ++i) stamp.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
   return stamp;
 }
@@ -87,28 +88,35 @@ void DistanceField::apply(const MomentCell& cell, const SurfacePatch& patch, int
 }
 
 std::int32_t DistanceField::vertex_at(GridIndex at) {
-  bool added = false;
-  const std::int32_t block = table_.find_or_add(block_of(at), added);
-  if (added) {
-    if (blocks_.size() < table_.size()) blocks_.emplace_back();
-    blocks_[static_cast<std::size_t>(block)].fill(BlockTable::kNone);
-  }
-  std::int32_t& number = blocks_[static_cast<std::size_t>(block)][static_cast<std::size_t>(local_of(at))];
-  if (number != BlockTable::kNone) return number;
+  SparseIndex::Block& block = index_.block(block_of(at));
+  std::int32_t& number = block.number[static_cast<std::size_t>(local_of(at))];
+  if (number != SparseIndex::kNone) return number;
   number = vertices_.add();
   vertices_[number].at = at;
-  vertices_[number].block = block;
+  vertices_[number].block = &block;
   return number;
 }
 
+std::array<std::int32_t, 8> DistanceField::corners_of(const FieldVertex& low) const {
+  const int x = low.at.x & 7, y = low.at.y & 7, z = low.at.z & 7;
+  std::array<std::int32_t, 8> corners{};
+  for (int i = 0; i < 8; ++i)
+    corners[static_cast<std::size_t>(i)] =
+        SparseIndex::near(*low.block, x + (i & 1), y + (i >> 1 & 1), z + (i >> 2));
+  return corners;
+}
+
 void DistanceField::update() {
+  ++round_;
   for (const std::int32_t number : changed_) evaluate(vertices_[number]);
   for (const std::int32_t number : changed_) {
     const FieldVertex& at = vertices_[number];
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::int32_t low = vertex_near(at.block, (at.at.x & 7) - (corner & 1),
-                                           (at.at.y & 7) - (corner >> 1 & 1), (at.at.z & 7) - (corner >> 2));
-      if (low != BlockTable::kNone) find_case(vertices_[low]);
+    const int x = at.at.x & 7, y = at.at.y & 7, z = at.at.z & 7;
+    for (int i = 0; i < 8; ++i) {
+      const std::int32_t low = SparseIndex::near(*at.block, x - (i & 1), y - (i >> 1 & 1), z - (i >> 2));
+      if (low == SparseIndex::kNone || vertices_[low].round == round_) continue;
+      vertices_[low].round = round_;
+      find_case(vertices_[low]);
     }
   }
   for (const std::int32_t number : changed_) vertices_[number].changed = false;
@@ -141,22 +149,19 @@ void DistanceField::evaluate(FieldVertex& vertex) {
 
 void DistanceField::find_case(FieldVertex& vertex) {
   vertex.corners = 0;
-  std::array<const FieldVertex*, 8> at{};
+  if (!vertex.known) return;
+  const std::array<std::int32_t, 8> at = corners_of(vertex);
   unsigned inside = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const std::int32_t number =
-        vertex_near(vertex.block, (vertex.at.x & 7) + (corner & 1), (vertex.at.y & 7) + (corner >> 1 & 1),
-                    (vertex.at.z & 7) + (corner >> 2));
-    if (number == BlockTable::kNone || !vertices_[number].known) return;
-    at[static_cast<std::size_t>(corner)] = &vertices_[number];
-    if (vertices_[number].distance < 0) inside |= 1u << corner;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (at[i] == SparseIndex::kNone || !vertices_[at[i]].known) return;
+    if (vertices_[at[i]].distance < 0) inside |= 1u << i;
   }
   if (inside == 0 || inside == 0xFF) return;
-  const CubeCase& found = cube_case(static_cast<std::uint8_t>(inside));
-  for (int edge = 0; edge < 12; ++edge) {
-    if ((found.edges >> edge & 1) == 0) continue;
+  const unsigned crossed = cube_case(static_cast<std::uint8_t>(inside)).edges;
+  for (unsigned bits = crossed; bits != 0; bits &= bits - 1) {
+    const int edge = std::countr_zero(bits);
     const EdgeCorners ends = edge_corners(edge);
-    const FieldVertex &low = *at[ends.low], &high = *at[ends.high];
+    const FieldVertex &low = vertices_[at[ends.low]], &high = vertices_[at[ends.high]];
     const float rise = high.distance - low.distance;
     const float expected = low.normal[edge_axis(edge)] + high.normal[edge_axis(edge)];
     if (std::abs(rise) > kMaxStep || rise * expected < -0.5f) return;  // two surfaces, or the back of one
@@ -165,13 +170,13 @@ void DistanceField::find_case(FieldVertex& vertex) {
 }
 
 void DistanceField::clear() {
-  table_.clear();
+  index_.clear();
   vertices_.clear();
   changed_.clear();
 }
 
 std::size_t DistanceField::memory_bytes() const {
-  return table_.memory_bytes() + table_.size() * sizeof(VertexBlock) + vertices_.size() * sizeof(FieldVertex);
+  return index_.memory_bytes() + vertices_.size() * sizeof(FieldVertex);
 }
 
 }  // namespace linescope

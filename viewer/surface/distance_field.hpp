@@ -7,12 +7,11 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <vector>
 
-#include "viewer/surface/block_table.hpp"
 #include "viewer/surface/chunked_pool.hpp"
 #include "viewer/surface/patch_map.hpp"
+#include "viewer/surface/sparse_index.hpp"
 
 namespace linescope {
 
@@ -30,13 +29,14 @@ struct VertexSums {
 struct FieldVertex {
   VertexSums sums;
   GridIndex at;
-  std::int32_t block = BlockTable::kNone;
   float distance = 0;   ///< intervals, positive on the side it was seen from
   float support = 0;    ///< intervals to the border of what was seen, to first order; negative beyond
   float deviation = 0;  ///< intervals
   Eigen::Vector3f normal{0, 0, 0};
-  std::uint8_t corners = 0;  ///< case of the cube above this vertex (0: no surface there)
-  bool known = false;        ///< patches reach it and agree on the side
+  const SparseIndex::Block* block = nullptr;  ///< where `at` lies
+  std::uint32_t round = 0;                    ///< the update that last looked at the cube above it
+  std::uint8_t corners = 0;                   ///< case of the cube above this vertex (0: no surface there)
+  bool known = false;                         ///< patches reach it and agree on the side
   bool changed = false;
 };
 
@@ -50,33 +50,31 @@ class DistanceField final : public PatchListener {
 
   void clear();
 
-  BlockTable& table() { return table_; }
   const FieldVertex& vertex(std::int32_t number) const { return vertices_[number]; }
   std::size_t vertex_count() const { return vertices_.size(); }
 
-  /// The vertex at x, y, z (-8 to 15) from the lowest corner of a block: its number or kNone.
-  std::int32_t vertex_near(std::int32_t block, int x, int y, int z) const {
-    const int slot = neighbour_slot(x >> kBlockBits, y >> kBlockBits, z >> kBlockBits);
-    const std::int32_t at = table_.neighbours(block)[static_cast<std::size_t>(slot)];
-    return at == BlockTable::kNone
-               ? at
-               : blocks_[static_cast<std::size_t>(at)][static_cast<std::size_t>(local_of({x, y, z}))];
+  /// The eight corners of the cube above a vertex (bit 0: x, 1: y, 2: z): their numbers or
+  /// SparseIndex::kNone.
+  std::array<std::int32_t, 8> corners_of(const FieldVertex& low) const;
+
+  /// Calls `visit(number)` for every vertex in an order that depends on the places only.
+  template <class Visit>
+  void for_each_ordered(Visit visit) {
+    index_.for_each_ordered(visit);
   }
 
   std::size_t memory_bytes() const;
 
  private:
-  using VertexBlock = std::array<std::int32_t, kBlockCells>;
-
   void apply(const MomentCell& cell, const SurfacePatch& patch, int sign);
   std::int32_t vertex_at(GridIndex at);
   void evaluate(FieldVertex& vertex);
   void find_case(FieldVertex& vertex);
 
-  BlockTable table_;
-  std::deque<VertexBlock> blocks_;
+  SparseIndex index_;
   ChunkedPool<FieldVertex> vertices_;
   std::vector<std::int32_t> changed_;
+  std::uint32_t round_ = 0;
 };
 
 }  // namespace linescope

@@ -3,30 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/surface/point_gate.hpp"
-
 namespace linescope {
 
 ImplicitMesher::ImplicitMesher(const MesherOptions& options)
     : options_(options),
       sweeps_(options.sweep_pause),
-      moments_(options),
+      quantizer_(options),
+      moments_(options.interval, options.max_memory),
       patches_(options),
       extractor_(options.interval) {}
 
 void ImplicitMesher::add_line(const SurfaceLine& line) {
-  const PointGate gate(options_, line);
-  const bool usable =
-      PointGate::admits_line(line) && std::any_of(line.points.begin(), line.points.end(),
-                                                  [&](const SurfacePoint& p) { return gate.admits(p); });
-  if (!usable) {
-    if (PointGate::admits_line(line))
-      for (const SurfacePoint& point : line.points) gate.count_refusal(point, counters_);
+  const PlacedLine placed = quantizer_.place(line, counters_);
+  if (placed.usable() == 0) {
     ++counters_.lines_refused;
     return;
   }
   if (sweeps_.begins_with(line.time)) moments_.begin_sweep();
-  ++(moments_.add_line(line, counters_) ? counters_.lines : counters_.lines_refused);
+  const std::uint64_t used = moments_.add_line(placed, line.seen_from);
+  counters_.points += used;
+  counters_.no_room += placed.usable() - used;
+  ++(used != 0 ? counters_.lines : counters_.lines_refused);
 }
 
 bool ImplicitMesher::remove_last_sweep() {
@@ -60,15 +57,12 @@ void ImplicitMesher::write_mesh(TriangleMesh& mesh) {
 std::vector<Eigen::Vector3f> ImplicitMesher::grid_vertices() {
   update();
   std::vector<Eigen::Vector3f> result;
-  for (const std::int32_t block : field_.table().ordered())
-    for (int local = 0; local < kBlockCells; ++local) {
-      const std::int32_t number = field_.vertex_near(block, local & 7, local >> 3 & 7, local >> 6);
-      if (number == BlockTable::kNone) continue;
-      const FieldVertex& vertex = field_.vertex(number);
-      if (!vertex.known || vertex.support < 0 || std::abs(vertex.distance) > 0.5f) continue;
-      result.push_back(
-          (Eigen::Vector3d(vertex.at.x, vertex.at.y, vertex.at.z) * options_.interval).cast<float>());
-    }
+  field_.for_each_ordered([&](std::int32_t number) {
+    const FieldVertex& vertex = field_.vertex(number);
+    if (!vertex.known || vertex.support < 0 || std::abs(vertex.distance) > 0.5f) return;
+    result.push_back(
+        (Eigen::Vector3d(vertex.at.x, vertex.at.y, vertex.at.z) * options_.interval).cast<float>());
+  });
   return result;
 }
 

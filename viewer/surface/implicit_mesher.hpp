@@ -6,6 +6,7 @@
 #pragma once
 
 #include "viewer/surface/distance_field.hpp"
+#include "viewer/surface/line_quantizer.hpp"
 #include "viewer/surface/mesher.hpp"
 #include "viewer/surface/moment_grid.hpp"
 #include "viewer/surface/patch_map.hpp"
@@ -33,6 +34,7 @@ class ImplicitMesher final : public Mesher {
  private:
   MesherOptions options_;
   SweepTracker sweeps_;
+  LineQuantizer quantizer_;
   MomentGrid moments_;
   PatchMap patches_;
   DistanceField field_;

@@ -3,25 +3,40 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "viewer/surface/block_table.hpp"
 #include "viewer/surface/cell_moments.hpp"
 #include "viewer/surface/chunked_pool.hpp"
-#include "viewer/surface/mesher.hpp"
+#include "viewer/surface/line_quantizer.hpp"
+#include "viewer/surface/sparse_index.hpp"
 
 namespace linescope {
 
+struct MomentCell {
+  CellContent content;
+  std::array<std::int32_t, 27>
+      near{};  ///< numbers of the cubes around (neighbour_slot), SparseIndex::kNone where none
+  GridIndex at;
+  std::uint32_t sweep = 0;     ///< the sweep that last changed it
+  std::uint32_t line = 0;      ///< the line that last changed it ...
+  std::int32_t line_slot = 0;  ///< ... and its place in that line's list
+  bool changed = false;        ///< is among MomentGrid::changed()
+
+  bool occupied() const { return content.occupied(); }
+};
+
 class MomentGrid {
  public:
-  explicit MomentGrid(const MesherOptions& options);
+  /// `interval` in mm, `max_memory` in bytes.
+  MomentGrid(double interval, std::size_t max_memory);
 
   void begin_sweep();
 
-  /// Adds the line's points to the cubes they lie in; counts what it refuses. Precondition: begin_sweep() was
-  /// called. True when at least one point was used.
-  bool add_line(const SurfaceLine& line, MesherCounters& counters);
+  /// Adds a line's points to the cubes they lie in. `seen_from` in mm.
+  /// Returns how many found room. Precondition: begin_sweep() was called.
+  std::uint64_t add_line(const PlacedLine& line, const Eigen::Vector3d& seen_from);
 
   /// As VertexGrid::remove_last_sweep.
   std::int64_t remove_last_sweep();
@@ -35,50 +50,34 @@ class MomentGrid {
   const MomentCell& cell(std::int32_t number) const { return cells_[number]; }
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t occupied() const { return occupied_; }
-
-  /// The cube at x, y, z (-8 to 15) from the lowest corner of a block: its number or BlockTable::kNone.
-  std::int32_t cell_near(std::int32_t block, int x, int y, int z) const {
-    const int slot = neighbour_slot(x >> kBlockBits, y >> kBlockBits, z >> kBlockBits);
-    const std::int32_t at = table_.neighbours(block)[static_cast<std::size_t>(slot)];
-    return at == BlockTable::kNone
-               ? at
-               : blocks_[static_cast<std::size_t>(at)][static_cast<std::size_t>(local_of({x, y, z}))];
-  }
-
   std::size_t sweeps() const { return journal_.size(); }
   std::size_t memory_bytes() const;
 
  private:
-  using CellBlock = std::array<std::int32_t, kBlockCells>;  ///< numbers of cubes or kNone
   struct LineCell {
     std::int32_t cell = 0;
     MomentSums sums;
   };
 
   std::int32_t cell_at(GridIndex at);
-  std::int32_t block_at(GridIndex block);
-  LineCell* line_cell(GridIndex at);
-  void merge_line(const SurfaceLine& line);
-  void merge(const LineCell& part, const Eigen::Vector3d& seen_from);
+  void link(const SparseIndex::Block& block, std::int32_t cell);
+  bool add_to_line(GridIndex at, const MomentSums& sums);
+  std::array<std::int32_t, 3> towards_camera(const Eigen::Vector3d& seen_from) const;
+  void merge(const LineCell& part, const std::array<std::int32_t, 3>& towards);
   void flag_changed(std::int32_t cell);
 
   double interval_;
-  double max_distance_;
-  float weight_scale_;
   std::size_t max_memory_;
-  MesherOptions options_;
-  BlockTable table_;
-  std::deque<CellBlock> blocks_;
+  SparseIndex index_;
   ChunkedPool<MomentCell> cells_;
   std::vector<std::int32_t> changed_;
-  std::vector<std::vector<std::pair<std::int32_t, MomentCell>>> journal_;
+  std::vector<std::vector<std::pair<std::int32_t, CellContent>>> journal_;
+  std::size_t journal_bytes_ = 0;
+  std::vector<MomentSums> tile_;      // all zero between lines
   std::vector<LineCell> line_cells_;  // the line being taken in
   std::uint32_t sweep_ = 0;
   std::uint32_t line_ = 0;
   std::size_t occupied_ = 0;
-  std::size_t journal_bytes_ = 0;
-  GridIndex last_coordinate_;
-  std::int32_t last_block_ = BlockTable::kNone;
 };
 
 }  // namespace linescope

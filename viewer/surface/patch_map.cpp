@@ -1,31 +1,49 @@
 #include "viewer/surface/patch_map.hpp"
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace linescope {
 namespace {
 
-constexpr double kMinAxisShare = 0.55;  // below 1/sqrt(3): at least one axis always passes
+// Neighbour slots of the nine columns around a cube along an axis: [axis][column][height + 1]; 4 is the own
+// column.
+using ColumnSlots = std::array<std::array<std::array<std::uint8_t, 3>, 9>, 3>;
 
-using Offset = std::array<int, 3>;
-
-Offset offset_along(int axis, int u, int v, int h) {
-  Offset offset{};
-  offset[static_cast<std::size_t>((axis + 1) % 3)] = u;
-  offset[static_cast<std::size_t>((axis + 2) % 3)] = v;
-  offset[static_cast<std::size_t>(axis)] = h;
+std::array<int, 3> offset_along(int axis, int column, int height) {
+  std::array<int, 3> offset{};
+  offset[static_cast<std::size_t>((axis + 1) % 3)] = column % 3 - 1;
+  offset[static_cast<std::size_t>((axis + 2) % 3)] = column / 3 - 1;
+  offset[static_cast<std::size_t>(axis)] = height;
   return offset;
 }
 
-std::int32_t cell_at_offset(const MomentGrid& grid, const MomentCell& from, const Offset& d) {
-  const std::int32_t number =
-      grid.cell_near(from.block, (from.at.x & 7) + d[0], (from.at.y & 7) + d[1], (from.at.z & 7) + d[2]);
-  if (number == BlockTable::kNone || !grid.cell(number).occupied()) return BlockTable::kNone;
-  return number;
+ColumnSlots all_slots() {
+  ColumnSlots slots{};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int column = 0; column < 9; ++column)
+      for (int height = -1; height <= 1; ++height) {
+        const auto d = offset_along(axis, column, height);
+        slots[static_cast<std::size_t>(axis)][static_cast<std::size_t>(column)]
+             [static_cast<std::size_t>(height + 1)] =
+                 static_cast<std::uint8_t>(neighbour_slot(d[0], d[1], d[2]));
+      }
+  return slots;
 }
+const ColumnSlots kSlots = all_slots();
+
+std::int32_t linked(const MomentCell& from, int axis, int column, int height) {
+  const auto& slots = kSlots[static_cast<std::size_t>(axis)][static_cast<std::size_t>(column)];
+  return from.near[slots[static_cast<std::size_t>(height + 1)]];
+}
+
+// The same, if it holds points.
+std::int32_t occupied_near(const MomentGrid& grid, const MomentCell& from, int axis, int column, int height) {
+  const std::int32_t number = linked(from, axis, column, height);
+  return number != SparseIndex::kNone && grid.cell(number).occupied() ? number : SparseIndex::kNone;
+}
+
+constexpr int kOwnColumn = 4;
 
 }  // namespace
 
@@ -41,140 +59,136 @@ PatchMap::PatchMap(const MesherOptions& options) {
 
 void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   while (records_.size() < grid.cell_count()) records_.add();
-  ++round_;
   affected_.clear();
-  for (const std::int32_t cell : grid.changed()) records_[cell].statistics = statistics_of(grid.cell(cell));
+  for (const std::int32_t cell : grid.changed())
+    records_[cell].statistics = statistics_of(grid.cell(cell).content);
   collect_affected(grid);
-  for (const std::int32_t cell : affected_) refit(grid, cell, listener);
+  for (const std::int32_t cell : affected_) {
+    for (int axis = 0; axis < 3; ++axis)
+      if ((records_[cell].redo >> axis & 1) != 0) refit(grid, cell, axis, listener);
+    records_[cell].redo = 0;
+  }
 }
 
-// The axes of a cube depend on the 27 cubes around it; its patch along an axis on the columns next to it, up
-// to kPatchReach cubes up and down. So do, the other way round, the cubes that a changed cube affects.
+// A patch depends on the stretches of cubes, in the nine columns around its cube, that begin next to it
+// (gather_column). The other way round: a changed cube affects all cubes next to it, and those farther along
+// an axis only through cubes that lead there. In its own column it also decides who is the middle; in the
+// others only middles care. Cubes emptied by an undo still lead, so nothing is missed.
 void PatchMap::collect_affected(const MomentGrid& grid) {
   for (const std::int32_t changed : grid.changed())
-    for (int i = 0; i < 27; ++i) {
-      const MomentCell& cell = grid.cell(changed);
-      const std::int32_t other =
-          i == 13 ? changed : cell_at_offset(grid, cell, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1});
-      if (other == BlockTable::kNone || records_[other].round == round_) continue;
-      visit(other);
-      find_axes(grid, other);
-    }
+    for (const std::int32_t other : grid.cell(changed).near)
+      if (other != kNone) visit(other, 0b111);
+  if (affected_.size() == grid.cell_count()) return;
   for (const std::int32_t changed : grid.changed())
     for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < 9; ++i)
-        for (int h = 2; h <= kPatchReach; ++h)
-          for (const int step : {-h, h}) {
-            const Offset offset = offset_along(axis, i % 3 - 1, i / 3 - 1, step);
-            const std::int32_t other = cell_at_offset(grid, grid.cell(changed), offset);
-            if (other != BlockTable::kNone && (records_[other].axes >> axis & 1) != 0) visit(other);
-          }
+      for (const int direction : {-1, 1}) collect_along(grid, changed, axis, direction);
 }
 
-void PatchMap::visit(std::int32_t cell) {
-  if (records_[cell].round == round_) return;
-  records_[cell].round = round_;
-  affected_.push_back(cell);
-}
-
-void PatchMap::find_axes(const MomentGrid& grid, std::int32_t number) {
-  records_[number].axes = 0;
-  if (!grid.cell(number).occupied()) return;
-  double weight = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < 27; ++i) {
-    const Offset d{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-    const std::int32_t other = i == 13 ? number : cell_at_offset(grid, grid.cell(number), d);
-    if (other == BlockTable::kNone) continue;
-    const CellStatistics& s = records_[other].statistics;
-    const auto& c = s.covariance;
-    const Eigen::Vector3d p(s.mean[0] + d[0], s.mean[1] + d[1], s.mean[2] + d[2]);
-    weight += s.weight;
-    mean += s.weight * p;
-    second(0, 0) += s.weight * (c[0] + p.x() * p.x());
-    second(1, 0) += s.weight * (c[1] + p.x() * p.y());
-    second(2, 0) += s.weight * (c[2] + p.x() * p.z());
-    second(1, 1) += s.weight * (c[3] + p.y() * p.y());
-    second(2, 1) += s.weight * (c[4] + p.y() * p.z());
-    second(2, 2) += s.weight * (c[5] + p.z() * p.z());
-  }
-  mean /= weight;
-  second = second / weight - mean * mean.transpose();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(second);  // reads the lower half; eigenvalues ascend
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(normal[axis]) >= kMinAxisShare)
-      records_[number].axes = static_cast<std::uint8_t>(records_[number].axes | 1 << axis);
-}
-
-void PatchMap::refit(const MomentGrid& grid, std::int32_t number, PatchListener& listener) {
-  const MomentCell& cell = grid.cell(number);
-  for (int axis = 0; axis < 3; ++axis) {
-    auto& held = records_[number].patches[static_cast<std::size_t>(axis)];
-    if (held) listener.patch_removed(cell, *held);
-    held.reset();
-    if (!cell.occupied() || (records_[number].axes >> axis & 1) == 0) continue;
-    held = fit(grid, cell, axis);
-    if (held) listener.patch_added(cell, *held);
+void PatchMap::collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction) {
+  for (int h = 1; h < kPatchReach; ++h) {
+    from = linked(grid.cell(from), axis, kOwnColumn, direction);
+    if (from == kNone) return;
+    for (int column = 0; column < 9; ++column) {
+      const std::int32_t other = linked(grid.cell(from), axis, column, direction);
+      if (other == kNone) continue;
+      if (column == kOwnColumn || (records_[other].middle >> axis & 1) != 0) visit(other, 1u << axis);
+    }
   }
 }
 
-bool PatchMap::is_middle_of_column(const MomentGrid& grid, const MomentCell& cell, int axis) const {
-  double weight = 0, height = 0;
+void PatchMap::visit(std::int32_t cell, unsigned axes) {
+  Record& record = records_[cell];
+  if (record.redo == 0) affected_.push_back(cell);
+  record.redo = static_cast<std::uint8_t>(record.redo | axes);
+}
+
+void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, PatchListener& listener) {
+  Record& record = records_[number];
+  std::int32_t& held = record.patch[static_cast<std::size_t>(axis)];
+  if (held != kNone) {
+    listener.patch_removed(grid.cell(number), patches_[held]);
+    unused_patches_.push_back(held);
+    held = kNone;
+  }
+  const bool middle = grid.cell(number).occupied() && is_middle_of_column(grid, number, axis);
+  record.middle = static_cast<std::uint8_t>((record.middle & ~(1u << axis)) | (middle ? 1u : 0u) << axis);
+  if (!middle) return;
+  const auto found = fit(grid, number, axis);
+  if (!found) return;
+  held = free_patch();
+  patches_[held] = *found;
+  listener.patch_added(grid.cell(number), *found);
+}
+
+std::int32_t PatchMap::free_patch() {
+  if (unused_patches_.empty()) return patches_.add();
+  const std::int32_t number = unused_patches_.back();
+  unused_patches_.pop_back();
+  return number;
+}
+
+// The cube in which the mean of its stretch of occupied cubes lies. A stretch as long as the reach is no
+// height: the surface runs along the axis there.
+bool PatchMap::is_middle_of_column(const MomentGrid& grid, std::int32_t number, int axis) const {
   const auto a = static_cast<std::size_t>(axis);
-  for (const int direction : {1, -1})
-    for (int h = direction > 0 ? 0 : -1; std::abs(h) <= kPatchReach; h += direction) {
-      const std::int32_t number = cell_at_offset(grid, cell, offset_along(axis, 0, 0, h));
-      if (number == BlockTable::kNone) break;
-      const CellStatistics& s = records_[number].statistics;
+  double weight = records_[number].statistics.weight, height = weight * records_[number].statistics.mean[a];
+  for (const int direction : {-1, 1}) {
+    std::int32_t at = number;
+    for (int h = direction;; h += direction) {
+      at = occupied_near(grid, grid.cell(at), axis, kOwnColumn, direction);
+      if (at == kNone) break;
+      if (std::abs(h) == kPatchReach) return false;
+      const CellStatistics& s = records_[at].statistics;
       weight += s.weight;
       height += s.weight * (s.mean[a] + h);
     }
+  }
   return height >= 0 && height < weight;
 }
 
-// Of the cubes of a neighbouring column the stretch nearest to the middle cube without a gap.
-void PatchMap::gather_column(const MomentGrid& grid, const MomentCell& cell, int axis, int u, int v,
+// Of a column beside the middle cube the stretch of occupied cubes that begins at its height or one off.
+void PatchMap::gather_column(const MomentGrid& grid, std::int32_t middle, int axis, int i,
                              PatchColumn& column) const {
-  std::array<std::int32_t, 2 * kPatchReach + 1> numbers{};
-  for (int h = -kPatchReach; h <= kPatchReach; ++h)
-    numbers[static_cast<std::size_t>(h + kPatchReach)] =
-        cell_at_offset(grid, cell, offset_along(axis, u, v, h));
-  const auto occupied = [&](int h) {
-    return std::abs(h) <= kPatchReach &&
-           numbers[static_cast<std::size_t>(h + kPatchReach)] != BlockTable::kNone;
-  };
-  int nearest = 0;
-  for (int h = 1; h <= kPatchReach && !occupied(nearest); ++h) nearest = occupied(h) ? h : -h;
-  if (!occupied(nearest)) return;
-  int low = nearest, high = nearest;
-  while (occupied(low - 1)) --low;
-  while (occupied(high + 1)) ++high;
-  for (int h = low; h <= high; ++h)
-    column.add({&records_[numbers[static_cast<std::size_t>(h + kPatchReach)]].statistics,
-                offset_along(axis, u, v, h)});
+  std::int32_t seed = kNone;
+  int height = 0;
+  for (const int h : {0, 1, -1}) {
+    if (seed != kNone) break;
+    seed = occupied_near(grid, grid.cell(middle), axis, i, h);
+    height = h;
+  }
+  if (seed == kNone) return;
+  column.add({&records_[seed].statistics, offset_along(axis, i, height)});
+  for (const int direction : {-1, 1}) {
+    std::int32_t at = seed;
+    for (int h = height + direction; std::abs(h) <= kPatchReach; h += direction) {
+      at = occupied_near(grid, grid.cell(at), axis, kOwnColumn, direction);
+      if (at == kNone) break;
+      column.add({&records_[at].statistics, offset_along(axis, i, h)});
+    }
+  }
+}
+
+std::optional<SurfacePatch> PatchMap::fit(const MomentGrid& grid, std::int32_t number, int axis) const {
+  PatchInput input;
+  input.axis = axis;
+  for (int i = 0; i < 9; ++i)
+    gather_column(grid, number, axis, i, input.columns[static_cast<std::size_t>(i)]);
+  return fit_patch(input, options_);
 }
 
 bool PatchMap::carries_surface(const MomentGrid& grid, std::int32_t number) const {
-  for (int i = 0; i < 27; ++i) {
-    const Offset d{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-    const std::int32_t other = cell_at_offset(grid, grid.cell(number), d);
-    if (other == BlockTable::kNone || static_cast<std::size_t>(other) >= records_.size()) continue;
-    for (const auto& patch : records_[other].patches)
-      if (patch) return true;
+  for (const std::int32_t other : grid.cell(number).near) {
+    if (other == kNone || static_cast<std::size_t>(other) >= records_.size()) continue;
+    for (const std::int32_t patch : records_[other].patch)
+      if (patch != kNone) return true;
   }
   return false;
 }
 
-std::optional<SurfacePatch> PatchMap::fit(const MomentGrid& grid, const MomentCell& cell, int axis) {
-  if (!is_middle_of_column(grid, cell, axis)) return std::nullopt;
-  PatchInput input;
-  input.axis = axis;
-  for (int i = 0; i < 9; ++i)
-    gather_column(grid, cell, axis, i % 3 - 1, i / 3 - 1, input.columns[static_cast<std::size_t>(i)]);
-  return fit_patch(input, options_);
+void PatchMap::clear() {
+  records_.clear();
+  patches_.clear();
+  unused_patches_.clear();
 }
 
 }  // namespace linescope

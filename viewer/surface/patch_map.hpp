@@ -24,37 +24,42 @@ class PatchMap {
  public:
   explicit PatchMap(const MesherOptions& options);
 
-  /// Fits again what depends on the cubes that changed. A patch is a function of the moments within four
+  /// Fits again what depends on the cubes that changed. A patch is a function of the moments within a few
   /// cubes, so the result does not depend on when this is called.
   void update(const MomentGrid& grid, PatchListener& listener);
 
   /// True when a cube or one of the 26 around it holds a patch: its points are part of a surface.
   bool carries_surface(const MomentGrid& grid, std::int32_t cell) const;
 
-  void clear() { records_.clear(); }
-  std::size_t memory_bytes() const { return records_.size() * sizeof(Record); }
+  void clear();
+  std::size_t memory_bytes() const {
+    return records_.size() * sizeof(Record) + patches_.size() * sizeof(SurfacePatch);
+  }
 
  private:
+  static constexpr std::int32_t kNone = SparseIndex::kNone;
   struct Record {
     CellStatistics statistics;
-    std::uint8_t axes = 0;    ///< bit a: the normal around the cube points well along axis a
-    std::uint32_t round = 0;  ///< the update that last visited it
-    std::array<std::optional<SurfacePatch>, 3> patches;
+    std::array<std::int32_t, 3> patch{kNone, kNone, kNone};  ///< per axis: number in patches_
+    std::uint8_t middle =
+        0;                  ///< bit a: the cube was the middle of its column along axis a when last looked at
+    std::uint8_t redo = 0;  ///< bit a: the patch along axis a has to be looked at
   };
 
   void collect_affected(const MomentGrid& grid);
-  void visit(std::int32_t cell);
-  void find_axes(const MomentGrid& grid, std::int32_t cell);
-  void refit(const MomentGrid& grid, std::int32_t cell, PatchListener& listener);
-  std::optional<SurfacePatch> fit(const MomentGrid& grid, const MomentCell& cell, int axis);
-  bool is_middle_of_column(const MomentGrid& grid, const MomentCell& cell, int axis) const;
-  void gather_column(const MomentGrid& grid, const MomentCell& cell, int axis, int u, int v,
-                     PatchColumn& column) const;
+  void collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction);
+  void visit(std::int32_t cell, unsigned axes);
+  void refit(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
+  std::optional<SurfacePatch> fit(const MomentGrid& grid, std::int32_t cell, int axis) const;
+  bool is_middle_of_column(const MomentGrid& grid, std::int32_t cell, int axis) const;
+  void gather_column(const MomentGrid& grid, std::int32_t middle, int axis, int i, PatchColumn& column) const;
+  std::int32_t free_patch();
 
   PatchOptions options_;
   ChunkedPool<Record> records_;  // by number of cube
+  ChunkedPool<SurfacePatch> patches_;
+  std::vector<std::int32_t> unused_patches_;
   std::vector<std::int32_t> affected_;
-  std::uint32_t round_ = 0;
 };
 
 }  // namespace linescope

@@ -27,38 +27,33 @@ void SurfaceExtractor::extract(DistanceField& field, TriangleMesh& mesh) {
   cuts_.clear();
   clipped_ = false;
   on_edge_.assign(field.vertex_count(), {-1, -1, -1});
-  for (const std::int32_t block : field.table().ordered())
-    for (int local = 0; local < kBlockCells; ++local) {
-      const std::int32_t number = field.vertex_near(block, local & 7, local >> 3 & 7, local >> 6);
-      if (number != BlockTable::kNone && field.vertex(number).corners != 0)
-        add_cube(field, field.vertex(number), mesh);
-    }
+  field.for_each_ordered([&](std::int32_t number) {
+    if (field.vertex(number).corners != 0) add_cube(field, field.vertex(number), mesh);
+  });
   if (clipped_) drop_unused_vertices(mesh);
   mesh.origin.assign(mesh.triangle_count(), TriangleOrigin::measured);
 }
 
 void SurfaceExtractor::add_cube(const DistanceField& field, const FieldVertex& low, TriangleMesh& mesh) {
   const CubeCase& found = cube_case(low.corners);
+  const std::array<std::int32_t, 8> corners = field.corners_of(low);
   for (std::size_t t = 0; t < found.triangles; ++t) {
     Triangle triangle{};
     for (std::size_t i = 0; i < 3; ++i)
-      triangle[i] = edge_vertex(field, low, found.vertices[3 * t + i], mesh);
+      triangle[i] = edge_vertex(field, corners, found.vertices[3 * t + i], mesh);
     add_clipped(triangle, mesh);
   }
 }
 
-std::uint32_t SurfaceExtractor::edge_vertex(const DistanceField& field, const FieldVertex& low, int edge,
+std::uint32_t SurfaceExtractor::edge_vertex(const DistanceField& field,
+                                            const std::array<std::int32_t, 8>& corners, int edge,
                                             TriangleMesh& mesh) {
   const EdgeCorners ends = edge_corners(edge);
-  const auto at_corner = [&](int corner) {
-    return field.vertex_near(low.block, (low.at.x & 7) + (corner & 1), (low.at.y & 7) + (corner >> 1 & 1),
-                             (low.at.z & 7) + (corner >> 2));
-  };
-  const std::int32_t first = at_corner(ends.low);
-  std::int32_t& number = on_edge_[static_cast<std::size_t>(first)][static_cast<std::size_t>(edge_axis(edge))];
+  const std::int32_t low = corners[ends.low];
+  std::int32_t& number = on_edge_[static_cast<std::size_t>(low)][static_cast<std::size_t>(edge_axis(edge))];
   if (number < 0) {
     number = static_cast<std::int32_t>(mesh.positions.size());
-    add_between(field.vertex(first), field.vertex(at_corner(ends.high)), mesh);
+    add_between(field.vertex(low), field.vertex(corners[ends.high]), mesh);
   }
   return static_cast<std::uint32_t>(number);
 }

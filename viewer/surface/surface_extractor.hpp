@@ -23,7 +23,8 @@ class SurfaceExtractor {
   using Triangle = std::array<std::uint32_t, 3>;
 
   void add_cube(const DistanceField& field, const FieldVertex& low, TriangleMesh& mesh);
-  std::uint32_t edge_vertex(const DistanceField& field, const FieldVertex& low, int edge, TriangleMesh& mesh);
+  std::uint32_t edge_vertex(const DistanceField& field, const std::array<std::int32_t, 8>& corners, int edge,
+                            TriangleMesh& mesh);
   void add_between(const FieldVertex& low, const FieldVertex& high, TriangleMesh& mesh);
   void add_clipped(const Triangle& triangle, TriangleMesh& mesh);
   std::uint32_t cut_point(std::uint32_t a, std::uint32_t b, TriangleMesh& mesh);

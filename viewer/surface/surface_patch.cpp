@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/surface/line_quantizer.hpp"
 #include "viewer/surface/small_solver.hpp"
 
 namespace linescope {
 namespace {
 
 constexpr double kMinAxisShare = 0.5;  // |normal along h| below this: another axis serves better
+constexpr double kSteepest = 0.45;     // |normal along h| of the fit below this: it ran away
 constexpr double kMinSpread =
     0.15;  // intervals; the points' standard deviation across their narrowest direction
 constexpr double kMinColumnShare =
@@ -90,7 +92,8 @@ Normal2 slopes_at(const Coefficients& k, double u, double v) {
 struct Window {
   Columns columns{};
   double weight = 0, points = 0, lines = 0, best_column = 0;
-  double spread = 0;  // variance across the narrowest direction of u, v
+  double spread = 0;      // variance across the narrowest direction of u, v
+  double axis_share = 0;  // square of the normal's component along h, from the covariance of all points
 };
 
 double narrowest_variance(double uu, double uv, double vv) {
@@ -101,28 +104,47 @@ double narrowest_variance(double uu, double uv, double vv) {
 // Which cubes of the input are left out as wild: bit by place in the column.
 using Excluded = std::array<std::uint8_t, 9>;
 
+// The inverse of a thin cloud's covariance is the square of its normal over the thickness: its diagonal,
+// which needs no eigenvectors, says how much of the normal each axis has.
+double axis_share(double uu, double uv, double vv, double uh, double vh, double hh) {
+  const double h = uu * vv - uv * uv, u = vv * hh - vh * vh, v = uu * hh - uh * uh;
+  return h / (h + u + v + 1e-30);
+}
+
+void summarise(Window& window) {
+  Column all;
+  for (const Column& c : window.columns) {
+    window.points += c.points;
+    window.lines = std::max(window.lines, c.lines);
+    window.best_column = std::max(window.best_column, c.points);
+    all.w += c.w;
+    all.u += c.w * c.u;
+    all.v += c.w * c.v;
+    all.h += c.w * c.h;
+    all.uu += c.w * c.uu;
+    all.uv += c.w * c.uv;
+    all.vv += c.w * c.vv;
+    all.uh += c.w * c.uh;
+    all.vh += c.w * c.vh;
+    all.hh += c.w * c.hh;
+  }
+  finish(all);
+  window.weight = all.w;
+  const double uu = all.uu - all.u * all.u, uv = all.uv - all.u * all.v, vv = all.vv - all.v * all.v;
+  window.spread = narrowest_variance(uu, uv, vv);
+  window.axis_share =
+      axis_share(uu, uv, vv, all.uh - all.u * all.h, all.vh - all.v * all.h, all.hh - all.h * all.h);
+}
+
 Window window_of(const PatchInput& input, const Axes& ax, const Excluded& excluded) {
   Window window;
-  double u = 0, v = 0, uu = 0, uv = 0, vv = 0;
   for (std::size_t i = 0; i < 9; ++i) {
-    Column& column = window.columns[i];
     for (int k = 0; k < input.columns[i].count; ++k)
-      if ((excluded[i] >> k & 1) == 0) add(column, input.columns[i].cells[static_cast<std::size_t>(k)], ax);
-    finish(column);
-    window.weight += column.w;
-    window.points += column.points;
-    window.lines = std::max(window.lines, column.lines);
-    window.best_column = std::max(window.best_column, column.points);
-    u += column.w * column.u;
-    v += column.w * column.v;
-    uu += column.w * column.uu;
-    uv += column.w * column.uv;
-    vv += column.w * column.vv;
+      if ((excluded[i] >> k & 1) == 0)
+        add(window.columns[i], input.columns[i].cells[static_cast<std::size_t>(k)], ax);
+    finish(window.columns[i]);
   }
-  const double inverse = 1.0 / std::max(window.weight, 1.0);
-  u *= inverse;
-  v *= inverse;
-  window.spread = narrowest_variance(uu * inverse - u * u, uv * inverse - u * v, vv * inverse - v * v);
+  summarise(window);
   return window;
 }
 
@@ -130,7 +152,7 @@ bool enough(const Window& window, const PatchOptions& options) {
   const Column& middle = window.columns[4];
   return window.points >= options.min_points && window.lines >= options.min_lines &&
          middle.points >= std::max(kMinColumnPoints, kMinColumnShare * window.best_column) &&
-         window.spread >= kMinSpread * kMinSpread;
+         window.spread >= kMinSpread * kMinSpread && window.axis_share >= kMinAxisShare * kMinAxisShare;
 }
 
 struct Solution {
@@ -231,6 +253,19 @@ double seen_along(const PatchInput& input, const std::array<double, 3>& normal) 
   return sum;
 }
 
+// Noise along the normal of a curved surface lets points on its hollow side lie closer together, and along a
+// tilted axis more so: seen along h, their mean lies sigma^2 (2 H + 1.5 k tan^2) nearer to the hollow side, H
+// the mean curvature, k the curvature in the direction of steepest slope (both by the fit; docs/surface.md).
+// Returns the shift along h that undoes it.
+double noise_shift(const Coefficients& k, const Normal2& slope, double variance) {
+  const double p = slope.u, q = slope.v, uu = 2 * k[3], uv = k[4], vv = 2 * k[5];
+  const double squared = 1 + p * p + q * q;
+  const double twice_mean = (1 + q * q) * uu - 2 * p * q * uv + (1 + p * p) * vv;
+  const double steepest = p * p * uu + 2 * p * q * uv + q * q * vv;
+  const double normal_variance = variance / squared;
+  return -normal_variance * (twice_mean + 1.5 * steepest) / squared;
+}
+
 SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& window, const Solution& found,
                         double variance) {
   SurfacePatch patch;
@@ -238,6 +273,8 @@ SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& w
   for (std::size_t corner = 0; corner < 4; ++corner)
     patch.height[corner] = height_at(found.k, (corner & 1) != 0 ? 0.5 : -0.5, corner >= 2 ? 0.5 : -0.5);
   const Normal2 slope = slopes_at(found.k, 0, 0);
+  const double shift = noise_shift(found.k, slope, variance);
+  for (double& height : patch.height) height += shift;
   const double along = slope.along_h();
   patch.normal[ax.u] = -slope.u * along;
   patch.normal[ax.v] = -slope.v * along;
@@ -271,7 +308,7 @@ std::optional<SurfacePatch> fit_patch(const PatchInput& input, const PatchOption
     found = solve(window, options);
     variance = point_variance(window, found.k, options.point_variance);
   }
-  if (slopes_at(found.k, 0, 0).along_h() < kMinAxisShare) return std::nullopt;
+  if (slopes_at(found.k, 0, 0).along_h() < kSteepest) return std::nullopt;
   return patch_from(input, ax, window, found, variance);
 }
 

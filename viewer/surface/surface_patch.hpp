@@ -21,21 +21,21 @@ namespace linescope {
 /// A cube of the neighbourhood: its statistics, and where its lowest corner lies from the middle cube's
 /// (intervals).
 struct NearCell {
-  const CellStatistics* statistics = nullptr;
-  std::array<int, 3> offset{};
+  const CellStatistics* statistics;
+  std::array<int, 3> offset;
 };
 
 /// All cubes that may take part: columns 3x3 around the middle one, up to kPatchReach cubes up and down.
 inline constexpr int kPatchReach = 3;
 struct PatchColumn {
-  std::array<NearCell, 2 * kPatchReach + 1> cells{};
+  std::array<NearCell, 2 * kPatchReach + 1> cells;  ///< the first `count` are set
   int count = 0;
   void add(const NearCell& cell) { cells[static_cast<std::size_t>(count++)] = cell; }
 };
 
 struct PatchInput {
-  int axis = 2;                          ///< h: 0, 1 or 2; u and v are the next two, cyclically
-  std::array<PatchColumn, 9> columns{};  ///< (u, v) from (-1, -1), u running fastest; 4 is the middle
+  int axis = 2;                        ///< h: 0, 1 or 2; u and v are the next two, cyclically
+  std::array<PatchColumn, 9> columns;  ///< (u, v) from (-1, -1), u running fastest; 4 is the middle
 };
 
 struct PatchOptions {

@@ -7,7 +7,7 @@ void VertexGrid::begin_sweep() {
   journal_.emplace_back();
 }
 
-bool VertexGrid::add(GridIndex vertex) {
+bool VertexGrid::add(GridIndex vertex, std::uint32_t points) {
   const GridIndex coordinate = block_of(vertex);
   if (last_block_ == BlockTable::kNone || !(coordinate == last_coordinate_)) {
     last_block_ = block_at(coordinate);
@@ -23,7 +23,7 @@ bool VertexGrid::add(GridIndex vertex) {
     journal_.back().push_back({last_block_, local, count});
     journal_bytes_ += sizeof(Change);
   }
-  set_count(last_block_, local, count + 1);
+  set_count(last_block_, local, count + points);
   return true;
 }
 

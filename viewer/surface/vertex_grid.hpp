@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viewer/surface/block_table.hpp"
+#include "viewer/surface/line_quantizer.hpp"
 
 namespace linescope {
 
@@ -28,8 +29,8 @@ class VertexGrid {
 
   void begin_sweep();
 
-  /// One more point at a vertex; |index| <= kGridLimit. False when there is no room for it.
-  bool add(GridIndex vertex);
+  /// So many more points at a vertex; |index| <= kGridLimit. False when there is no room for them.
+  bool add(GridIndex vertex, std::uint32_t points);
 
   /// Takes back what came since the last begin_sweep(): how many points, or -1 when there is no sweep left.
   std::int64_t remove_last_sweep();
@@ -78,11 +79,8 @@ class VertexGrid {
   std::int32_t last_block_ = BlockTable::kNone;
 };
 
-/// The grid vertex nearest to a point along one axis; `inverse_interval` is 1/t. Valid within +-kGridLimit.
-inline std::int32_t nearest_vertex(float coordinate, double inverse_interval) {
-  constexpr std::int32_t offset = kGridLimit + 2;
-  return static_cast<std::int32_t>(static_cast<double>(coordinate) * inverse_interval + (offset + 0.5)) -
-         offset;
-}
+/// Steps to add to a point so that its cube's number is that of its nearest vertex: per axis, beyond the
+/// midpoint of an interval the upper grid plane.
+inline constexpr std::int32_t kToNearestVertex = kSteps / 2;
 
 }  // namespace linescope

@@ -1,0 +1,54 @@
+// Where on the sparse grid a record lives: grid index to running number and back, with quick steps to the
+// neighbours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "viewer/surface/block_table.hpp"
+#include "viewer/surface/chunked_pool.hpp"
+
+namespace linescope {
+
+class SparseIndex {
+ public:
+  static constexpr std::int32_t kNone = BlockTable::kNone;
+
+  struct Block {
+    std::array<std::int32_t, kBlockCells> number;  ///< of the record at each place, or kNone
+    std::array<Block*, 27> near;                   ///< the blocks around (neighbour_slot), null where none
+  };
+
+  /// The block at a block coordinate, made when missing; the address stays valid until clear().
+  Block& block(GridIndex coordinate);
+
+  /// The same if it is there, or null.
+  Block* find(GridIndex coordinate);
+
+  /// The number at x, y, z (-8 to 15) from the lowest corner of a block.
+  static std::int32_t near(const Block& block, int x, int y, int z) {
+    const int slot = neighbour_slot(x >> kBlockBits, y >> kBlockBits, z >> kBlockBits);
+    const Block* at = block.near[static_cast<std::size_t>(slot)];
+    return at == nullptr ? kNone : at->number[static_cast<std::size_t>(local_of({x, y, z}))];
+  }
+
+  /// Calls `visit(number)` for every record in an order that depends on the places only.
+  template <class Visit>
+  void for_each_ordered(Visit visit) {
+    for (const std::int32_t block : table_.ordered())
+      for (const std::int32_t number : blocks_[block].number)
+        if (number != kNone) visit(number);
+  }
+
+  void clear();
+  std::size_t memory_bytes() const { return table_.memory_bytes() + blocks_.size() * sizeof(Block); }
+
+ private:
+  BlockTable table_;
+  ChunkedPool<Block> blocks_;
+  GridIndex last_coordinate_;
+  Block* last_ = nullptr;  // the block asked for last
+};
+
+}  // namespace linescope
