@@ -42,10 +42,9 @@ TEST(LifeCycle, ASecondDaemonIsRefusedWithThePidOfTheFirst) {
   const auto end = second.process().wait(10s);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->code, 7);
-  EXPECT_NE(
-      second.process().standard_error().find("already running, pid " + std::to_string(first.process().pid())),
-      std::string::npos)
-      << second.process().standard_error();
+  const std::string said = second.process().standard_error();
+  EXPECT_NE(said.find("already running"), std::string::npos) << said;
+  EXPECT_NE(said.find("pid " + std::to_string(first.process().pid())), std::string::npos) << said;
   EXPECT_TRUE(first.process().running());
 }
 
