@@ -154,9 +154,9 @@ void LibertySource::lose_unit(const Error& error) {
   streaming_ = false;
   failed_restarts_ = 0;
   transport_->close();
+  say(false, error.message);
   stream_.fall_silent(ToolState::disconnected, monotonic_now(), *this);
   publish();
-  say(false, error.message);
 }
 
 void LibertySource::say(bool delivering, std::string sentence) {

@@ -85,7 +85,8 @@ TEST(LibertySerial, DeliversEverySampleInBinaryAndInText) {
     SerialCable cable(unit);
     LibertyOptions options = serial_options(cable.device());
     options.format = format;
-    if (format == LibertyFormat::ascii) options.ask_stylus = false;
+    if (format == LibertyFormat::ascii)
+      options.ask_timestamp = options.ask_stylus = options.ask_distortion = false;
     DriverOnLine driver(unit, options);
     const auto started = driver.source().start();
     ASSERT_TRUE(started) << started.error().message;
