@@ -31,13 +31,27 @@ Result<ExportReport> finished(std::ofstream& stream, const fs::path& file, Expor
               fmt::format("{} could not be written completely; is the disk full?", file.string()));
 }
 
-void write_row(std::ofstream& out, const PoseSample& s) {
+void write_row(std::ofstream& out, const PoseSample& s, bool with_distortion) {
   const Eigen::Vector3d& t = s.world_from_sensor.translation();
   const Eigen::Quaterniond& q = s.world_from_sensor.rotation();
-  fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", seconds_text(s.time), s.station + 1, t.x(),
-             t.y(), t.z(), q.w(), q.x(), q.y(), q.z(), name(s.state), s.frame_count,
-             std::isnan(s.distortion) ? "" : fmt::format("{}", s.distortion),
-             s.arrival != 0 ? seconds_text(s.arrival) : "");
+  fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{}", seconds_text(s.time), s.station + 1, t.x(), t.y(),
+             t.z(), q.w(), q.x(), q.y(), q.z(), name(s.state), s.frame_count, seconds_text(s.arrival));
+  if (with_distortion) fmt::print(out, ",{}", s.distortion);
+  out << '\n';
+}
+
+/// Calls `use` for every good sample. Damage is counted; anything else ends it.
+template <class Use>
+Result<void> for_each_sample(const fs::path& folder, ExportReport& report, Use use) {
+  RecordedTracker tracker(folder);
+  if (auto started = tracker.start(); !started) return started;
+  for (PoseSample sample;;) {
+    const auto pull = tracker.next(sample);
+    if (!pull && pull.error().code != ErrorCode::unreadable) return tl::unexpected(pull.error());
+    if (pull && *pull == Pull::end) return {};
+    if (pull) use(sample);
+    report.damaged += pull ? 0 : 1;
+  }
 }
 
 }  // namespace
@@ -45,23 +59,23 @@ void write_row(std::ofstream& out, const PoseSample& s) {
 Result<ExportReport> export_poses_csv(const fs::path& folder, const fs::path& file) {
   const auto recording = open_recording(folder);
   if (!recording) return tl::unexpected(recording.error());
-  RecordedTracker tracker(folder);
-  if (auto started = tracker.start(); !started) return tl::unexpected(started.error());
+  ExportReport ignored, report;
+  bool with_distortion = true;  // the column has no word for "unknown": all of it or none
+  const auto looked = for_each_sample(folder, ignored, [&](const PoseSample& sample) {
+    with_distortion = with_distortion && std::isfinite(sample.distortion);
+  });
+  if (!looked) return tl::unexpected(looked.error());
   auto out = created(file);
   if (!out) return tl::unexpected(out.error());
-  *out << "time_s,station,x_mm,y_mm,z_mm,qw,qx,qy,qz,state,frame_count,distortion,arrival_s\n";
-  ExportReport report;
+  *out << "time_s,station,x_mm,y_mm,z_mm,qw,qx,qy,qz,state,frame_count,arrival_s"
+       << (with_distortion ? ",distortion\n" : "\n");
   report.remark = recording->remark;
-  PoseSample sample;
-  for (;;) {
-    const auto pull = tracker.next(sample);
-    if (!pull && pull.error().code != ErrorCode::unreadable) return tl::unexpected(pull.error());
-    if (pull && *pull == Pull::end) break;
-    ++(pull ? report.written : report.damaged);
-    if (!pull) continue;
+  const auto written = for_each_sample(folder, report, [&](const PoseSample& sample) {
+    ++report.written;
     report.without_pose += usable(sample.state) ? 0 : 1;
-    write_row(*out, sample);
-  }
+    write_row(*out, sample, with_distortion);
+  });
+  if (!written) return tl::unexpected(written.error());
   return finished(*out, file, report);
 }
 
