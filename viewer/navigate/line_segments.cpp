@@ -58,7 +58,7 @@ std::uint16_t clipped(std::ptrdiff_t n) {
 
 }  // namespace
 
-const std::vector<CutSegment>& LineCutter::cut(const SurfaceLine& line, const Eigen::Vector3d& view,
+const std::vector<CutSegment>& LineCutter::cut(const NavigationLine& line, const Eigen::Vector3d& view,
                                                const CellGrid& grid) {
   segments_.clear();
   collect(line, view, grid);
@@ -73,7 +73,7 @@ const std::vector<CutSegment>& LineCutter::cut(const SurfaceLine& line, const Ei
   return segments_;
 }
 
-void LineCutter::collect(const SurfaceLine& line, const Eigen::Vector3d& view, const CellGrid& grid) {
+void LineCutter::collect(const NavigationLine& line, const Eigen::Vector3d& view, const CellGrid& grid) {
   samples_.clear();
   unusable_ = 0;
   Moments all;

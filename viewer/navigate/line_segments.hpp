@@ -54,7 +54,7 @@ class LineCutter {
   /// The segments of a line (their `line` is not set), each with the cell its mean lies in, valid until the
   /// next call; points that are not finite or beyond the grid are left out and counted in
   /// `unusable_points()`. `view` must be a unit vector.
-  const std::vector<CutSegment>& cut(const SurfaceLine& line, const Eigen::Vector3d& view,
+  const std::vector<CutSegment>& cut(const NavigationLine& line, const Eigen::Vector3d& view,
                                      const CellGrid& grid);
   std::uint64_t unusable_points() const { return unusable_; }
 
@@ -69,7 +69,7 @@ class LineCutter {
   };
   using Samples = std::vector<Sample>::iterator;
 
-  void collect(const SurfaceLine& line, const Eigen::Vector3d& view, const CellGrid& grid);
+  void collect(const NavigationLine& line, const Eigen::Vector3d& view, const CellGrid& grid);
   void summarise(Samples begin, Samples end, const Eigen::Vector3d& view, const CellGrid& grid);
   /// Makes a segment of the samples on a straight line and returns where the left-out ones begin.
   Samples emit(Samples begin, Samples end, const Eigen::Vector3d& view, const CellGrid& grid);

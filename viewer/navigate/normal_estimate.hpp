@@ -15,7 +15,7 @@ namespace linescope {
 
 /// One laser line as the index takes it. Errors of a line's points are shared (one pose placed them all), so
 /// a line, not a point, is the unit that counts as independent.
-struct SurfaceLine {
+struct NavigationLine {
   std::uint64_t id = 0;                  ///< running number of the line record; unique within a scan
   Nanoseconds time = 0;                  ///< middle of exposure
   Eigen::Vector3d view{0, 0, -1};        ///< unit, from the endoscope towards the surface

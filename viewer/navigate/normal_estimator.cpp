@@ -75,7 +75,7 @@ NormalEstimator::~NormalEstimator() = default;
 NormalEstimator::NormalEstimator(NormalEstimator&&) noexcept = default;
 NormalEstimator& NormalEstimator::operator=(NormalEstimator&&) noexcept = default;
 
-void NormalEstimator::add_line(const SurfaceLine& line) {
+void NormalEstimator::add_line(const NavigationLine& line) {
   const Eigen::Vector3d view = line.view.normalized();
   if (!view.allFinite() || !(view.norm() > 0.5)) {
     state_->index.write([&](LiveIndex& index) { index.reject_line(line.points.size()); });

@@ -39,7 +39,7 @@ class NormalEstimator {
   NormalEstimator& operator=(NormalEstimator&&) noexcept;
 
   /// Writer only. Bad points are left out and counted.
-  void add_line(const SurfaceLine& line);
+  void add_line(const NavigationLine& line);
   /// Writer only. Forgets the surface and the counts.
   void clear();
 

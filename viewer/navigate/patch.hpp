@@ -32,8 +32,9 @@ class PatchFrame {
 struct PatchLine {
   std::uint32_t place = 0;  ///< in the index
   Nanoseconds time = 0;
-  Eigen::Vector2f direction = Eigen::Vector2f::Zero();  ///< in the tangent plane, sum over its segments, not unit
-  Eigen::Vector2f shear = Eigen::Vector2f::Zero();      ///< sideways move per height of an error along the view
+  Eigen::Vector2f direction =
+      Eigen::Vector2f::Zero();                      ///< in the tangent plane, sum over its segments, not unit
+  Eigen::Vector2f shear = Eigen::Vector2f::Zero();  ///< sideways move per height of an error along the view
 };
 
 /// Fixed room, nothing allocated; arrays run over segments.

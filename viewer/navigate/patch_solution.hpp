@@ -20,9 +20,9 @@ struct SolutionOptions {
   double line_prior = 0.02;      ///< expected offset of a line, mm; weighs as much as `prior_lines` lines
   double prior_lines = 1.0;
   double tilt_prior = 0.003;  ///< expected tilt of a line, rad; weighs as much as `prior_lines` lines
-  double drift = 0.03;  ///< of the tracker, standard deviation, mm: what is slower than a sweep cannot be
-                        ///< seen in the points and must be stated; faster drift is found by itself
-  double drift_time = 1.0;         ///< its correlation time, s
+  double drift = 0.03;      ///< of the tracker, standard deviation, mm: what is slower than a sweep cannot be
+                            ///< seen in the points and must be stated; faster drift is found by itself
+  double drift_time = 1.0;  ///< its correlation time, s
   double cubic_share = 0.05;       ///< expected cubic coefficient: this times curvature^2 ...
   double cubic_floor = 1e-4;       ///< ... plus this, 1/mm^2
   double largest_curvature = 0.6;  ///< expected size of the strongest curvatures, 1/mm
