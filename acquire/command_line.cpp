@@ -16,7 +16,7 @@ using Refused = tl::unexpected<Refusal>;
 struct Typed {
   std::string config;
   std::vector<std::string> assignments;
-  bool check = false, print_config = false, list = false;
+  bool check = false, print_config = false, print_keys = false, list = false;
 };
 
 constexpr const char* kFooter =
@@ -67,6 +67,8 @@ void declare_options(CLI::App& app, Typed& typed) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--check", typed.check, "Check configuration, calibration and sources; start nothing");
   app.add_flag("--print-config", typed.print_config, "Print the effective configuration and end");
+  app.add_flag("--print-keys", typed.print_keys,
+               "Print every key as the tables of docs/configuration.md and end");
   app.add_flag("--list", typed.list, "List the cameras of this machine and end");
   app.set_version_flag("--version", std::string("linescope-acquire ") + kVersion);
   app.footer(kFooter);
@@ -114,6 +116,11 @@ tl::expected<CommandLine, Refusal> read_command_line(int argc, const char* const
   if (auto ok = validate(out.options); !ok)
     return Refused(Refusal{ExitCode::configuration, ok.error().message});
   out.configuration = schema.to_toml();
+  if (typed.print_keys) {
+    out.task = CommandLine::Task::stop_here;
+    out.printed = schema.to_markdown();
+    return out;
+  }
   if (typed.check) out.task = CommandLine::Task::check;
   if (typed.list) out.task = CommandLine::Task::list;
   if (typed.print_config) out.task = CommandLine::Task::print_config;

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "acquire/acquire_options.hpp"
+#include "acquire/command_line.hpp"
+
+namespace linescope {
+namespace {
+
+TEST(AcquireOptions, DeclarationsAreWithoutMistakeAndDefaultsAreValid) {
+  AcquireOptions options;
+  ConfigSchema schema;
+  declare(schema, options);
+  for (const ConfigFault& fault : schema.check()) ADD_FAILURE() << fault.message;
+  EXPECT_TRUE(validate(options)) << validate(options).error().message;
+}
+
+TEST(AcquireOptions, TheDocumentedTablesAreThoseOfTheProgram) {
+  AcquireOptions options;
+  ConfigSchema schema;
+  declare(schema, options);
+  std::ifstream in(LINESCOPE_DOCS "/configuration.md");
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_NE(page.find(schema.to_markdown()), std::string::npos)
+      << "docs/configuration.md is out of date: linescope-acquire --print-keys prints its tables";
+}
+
+TEST(AcquireOptions, WhatNoSingleKeyShowsIsRefused) {
+  AcquireOptions shared_station;
+  shared_station.tracker.roles.harvester = shared_station.tracker.roles.endoscope;
+  EXPECT_FALSE(validate(shared_station));
+  AcquireOptions half_twin;
+  half_twin.tracker.source = "none";
+  EXPECT_FALSE(validate(half_twin));
+  AcquireOptions no_calibration;
+  no_calibration.camera.source = no_calibration.tracker.source = "somewhere";
+  EXPECT_FALSE(validate(no_calibration));
+  AcquireOptions no_endoscope;
+  no_endoscope.tracker.roles.endoscope = -1;
+  EXPECT_FALSE(validate(no_endoscope));
+}
+
+tl::expected<CommandLine, Refusal> parsed(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "linescope-acquire");
+  return read_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(CommandLine, OptionsAddUpInTheOrderTheyAreGiven) {
+  const auto line =
+      parsed({"--seed", "7", "--set", "laser.colour=red", "--fast", "--set", "laser.min_snr=9"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->options.twin.seed, 7);
+  EXPECT_EQ(line->options.laser.colour, LaserColour::red);
+  EXPECT_EQ(line->options.run.pace, Pace::fast);
+  EXPECT_DOUBLE_EQ(line->options.laser.min_snr, 9);
+  EXPECT_EQ(line->task, CommandLine::Task::run);
+}
+
+TEST(CommandLine, HelpAndVersionStopThere) {
+  const auto help = parsed({"--help"});
+  ASSERT_TRUE(help);
+  EXPECT_EQ(help->task, CommandLine::Task::stop_here);
+  EXPECT_NE(help->printed.find("Not for clinical use"), std::string::npos);
+  const auto version = parsed({"--version"});
+  ASSERT_TRUE(version);
+  EXPECT_EQ(version->printed.rfind("linescope-acquire ", 0), 0u);
+}
+
+TEST(CommandLine, RefusalsCarryTheExitCode) {
+  EXPECT_EQ(parsed({"--sed", "1"}).error().exit, ExitCode::usage);
+  EXPECT_EQ(parsed({"--config", "/no/such/file.toml"}).error().exit, ExitCode::configuration);
+  EXPECT_EQ(parsed({"--set", "twin.seed=minus one"}).error().exit, ExitCode::usage);
+}
+
+}  // namespace
+}  // namespace linescope
