@@ -25,23 +25,37 @@ Plane flat_sheet(const InstrumentOptions& instrument) {
   return {Vector3d(0, -c, s), instrument.baseline_mm * c};
 }
 
-// Least squares of perpendicular distances over the lit part of the sheet in the working range, weighted by
-// its light.
-Plane fitted_plane(const PrismSheet& sheet, const TwinOptions& options) {
-  const double half =
-      std::asin(std::min(0.99, std::sin(options.optics.line.fan_half_angle_rad) *
-                                   options.optics.prism.medium_index / options.optics.prism.air_index));
-  std::vector<Vector3d> points;
-  for (int i = -20; i <= 20; ++i) {
-    const auto ray = sheet.ray(half * i / 20.0);
+struct LitPoint {
+  Vector3d position;
+  double weight;  ///< light of the fan there
+};
+
+std::vector<LitPoint> lit_points(const PrismSheet& sheet, const LineOptions& line) {
+  std::vector<LitPoint> points;
+  for (int i = -30; i <= 30; ++i) {
+    const double fan = i / 20.0;  // in half angles: to one and a half, where the light is 1 % of the middle's
+    const auto ray = sheet.ray_in_medium(fan * line.fan_half_angle_rad);
     if (!ray) continue;
-    for (double z = kNearest; z <= kFarthest; z += 1)
-      points.push_back(ray->origin + ray->direction * (z / ray->direction.z()));
+    for (double z = kNearest; z <= kFarthest; z += 1) {
+      points.push_back({ray->origin + ray->direction * (z / ray->direction.z()), std::exp(-2 * fan * fan)});
+    }
   }
+  return points;
+}
+
+// Least squares of perpendicular distances over the working range.
+Plane fitted_plane(const PrismSheet& sheet, const TwinOptions& options) {
+  const std::vector<LitPoint> points = lit_points(sheet, options.optics.line);
+  double weight = 0;
   Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
+  for (const LitPoint& p : points) {
+    mean += p.weight * p.position;
+    weight += p.weight;
+  }
+  mean /= weight;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Vector3d& p : points) scatter += (p - mean) * (p - mean).transpose();
+  for (const LitPoint& p : points)
+    scatter += p.weight * (p.position - mean) * (p.position - mean).transpose();
   Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
   if (normal.dot(mean) < 0) normal = -normal;
   return {normal, normal.dot(mean)};

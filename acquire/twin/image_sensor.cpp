@@ -24,6 +24,11 @@ std::vector<float> normal_quantiles() {
   return table;
 }
 
+// Rounds numbers above -512; std::nearbyint is a call into the library on plain x86-64.
+float whole(float v) {
+  return static_cast<float>(static_cast<int>(v + 512.5F) - 512);
+}
+
 std::uint8_t to_byte(float level) {
   return static_cast<std::uint8_t>(std::clamp(level, 0.0F, kFull) + 0.5F);
 }
@@ -47,9 +52,9 @@ void decode(float y, float cb, float cr, std::uint8_t* out) {
 // Two neighbours share one chroma value; all numbers are sent as whole ones.
 void subsample(const std::array<float, 3>& left, const std::array<float, 3>& right, std::uint8_t* out) {
   const YCbCr a = coded(left), b = coded(right);
-  const float cb = std::nearbyint(0.5F * (a.cb + b.cb)), cr = std::nearbyint(0.5F * (a.cr + b.cr));
-  decode(std::nearbyint(a.y), cb, cr, out);
-  decode(std::nearbyint(b.y), cb, cr, out + 3);
+  const float cb = whole(0.5F * (a.cb + b.cb)), cr = whole(0.5F * (a.cr + b.cr));
+  decode(whole(a.y), cb, cr, out);
+  decode(whole(b.y), cb, cr, out + 3);
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ namespace {
 constexpr double kTissuePerRadian = 14;  // soft tissue hides stretches of about a twelfth of the fan
 constexpr double kTissuePerSecond = 1.5;
 constexpr double kTissuePasses = 0.02;
-constexpr double kGhostOffset = 1.6;  // mm between the line and its reflection in a wet neighbour
+constexpr double kGhostWaver = 0.3;     // share of the offset by which it winds
+constexpr double kGhostWidening = 2.0;  // the reflection is that much wider
+constexpr double kGhostOffset = 1.6;    // mm between the line and its reflection in a wet neighbour
 
 double bell(double x) {
   return std::exp(-0.5 * x * x);
@@ -31,9 +33,15 @@ double LaserLight::sigma(double distance) const {
   return std::hypot(line_.width_sigma_mm, blur);
 }
 
-double LaserLight::reach(double distance) const {
-  const double ghost = trouble_.inter_reflection > 0 ? 1.5 * kGhostOffset : 0.0;
-  return line_.sheet_reach_sigmas * sigma(distance) + ghost;
+LaserLight::Band LaserLight::band(double distance) const {
+  const double reach = line_.sheet_reach_sigmas * sigma(distance);
+  if (!(trouble_.inter_reflection > 0)) return {-reach, reach};
+  return {-reach, kGhostOffset * (1 + kGhostWaver) + kGhostWidening * reach};
+}
+
+bool LaserLight::touches(const SheetPlace& place, double shift) const {
+  const Band lit = band(place.distance);
+  return place.offset >= lit.low - shift && place.offset <= lit.high + shift;
 }
 
 double LaserLight::passing(double fan_angle, double seconds) const {
@@ -53,13 +61,14 @@ double LaserLight::level(const SheetPlace& place, const Eigen::Vector3d& normal,
   double profile = std::abs(across) <= limit ? bell(across) : 0;
   if (trouble_.inter_reflection > 0) {
     const double ghost =
-        (place.offset - kGhostOffset * (1 + 0.3 * std::sin(9 * place.fan_angle + seconds))) / (2 * width);
+        (place.offset - kGhostOffset * (1 + kGhostWaver * std::sin(9 * place.fan_angle + seconds))) /
+        (kGhostWidening * width);
     if (std::abs(ghost) <= limit) profile += trouble_.inter_reflection * bell(ghost);
   }
   if (!(profile > 0)) return 0;
   const double fan = place.fan_angle / line_.fan_half_angle_rad;
   return line_.brightness * (line_.reference_distance_mm / place.distance) * (line_.width_sigma_mm / width) *
-         cosine * std::exp(-2 * fan * fan) * profile * passing(place.fan_angle, seconds);
+         cosine * std::exp(-2 * fan * fan) * profile;
 }
 
 }  // namespace linescope::twin

@@ -17,14 +17,22 @@ class LaserLight {
   /// since the beginning; without speckle and without shade.
   double level(const SheetPlace& place, const Eigen::Vector3d& normal, double seconds) const;
 
-  /// Half width (mm) of the band around the sheet outside which level() is 0, at `distance` from the source.
-  double reach(double distance) const;
+  /// Share of the light that soft tissue lets pass.
+  double passing(double fan_angle, double seconds) const;
+
+  /// Offsets from the sheet (mm) between which there is light, at `distance` from the source.
+  struct Band {
+    double low, high;
+  };
+  Band band(double distance) const;
+
+  /// False when there is no light at `place`, even if the sheet moved by `shift` mm.
+  bool touches(const SheetPlace& place, double shift) const;
 
   const LaserSheet& sheet() const { return sheet_; }
 
  private:
   double sigma(double distance) const;
-  double passing(double fan_angle, double seconds) const;
 
   std::uint64_t seed_;
   const LaserSheet& sheet_;

@@ -33,7 +33,7 @@ struct LineOptions {
   double fan_half_angle_rad = 0.30;   ///< in the medium; the light falls to 1/e^2 there
   double speckle_contrast = 0.25;     ///< standard deviation over mean; 0 = none
   double speckle_size_px = 1.6;       ///< correlation length
-  double sheet_reach_sigmas = 4.0;    ///< the profile is drawn that far
+  double sheet_reach_sigmas = 3.5;    ///< the profile is drawn that far
 };
 
 struct LightOptions {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "acquire/twin/laser_sheet.hpp"
 
@@ -29,6 +30,9 @@ class PrismSheet : public LaserSheet {
   /// it totally.
   std::optional<SheetRay> ray(double angle_in_air) const;
 
+  /// The same by its sideways angle behind the prism.
+  std::optional<SheetRay> ray_in_medium(double angle) const;
+
   double apex() const { return apex_; }
 
  private:
@@ -36,11 +40,25 @@ class PrismSheet : public LaserSheet {
   SheetRay ray_with_sine(double sine_in_medium) const;
   double largest_sine() const;
 
+  // What the search for a point's ray needs of the ray with one sine: where it starts sideways, how it runs
+  // per depth, and how these change with the sine. Tabulated, because the renderer asks some ten thousand
+  // times per picture.
+  struct Run {
+    double x, dx_dz, dy_dz;
+  };
+  struct Knot {
+    Run value, slope;
+  };
+  Run run_of(double sine) const;
+  void tabulate();
+  Knot interpolated(double sine) const;
+
   double baseline_;
   double apex_;
   PrismOptions options_;
   Eigen::Vector3d face_normal_;
-  double largest_sine_;
+  double largest_sine_ = 0;
+  std::vector<Knot> knots_;
 };
 
 }  // namespace linescope::twin

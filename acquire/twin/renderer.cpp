@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquire/twin/speckle.hpp"
-
 namespace linescope::twin {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kCell = 4;                       // px between grid nodes
+constexpr double kFarthestWork = 40;           // mm; beyond it the line is too weak to care how far it moves
 const Vector3d kLaserColour{0.16, 1.0, 0.10};  // of 532 nm in the camera's blue, green, red
 
 int nodes_for(int pixels) {
   return (pixels + kCell - 2) / kCell + 1;
+}
+
+ViewRays view_rays(const TwinOptions& options) {
+  return {options.instrument.lens, options.optics.port, options.optics.prism.medium_index};
 }
 
 }  // namespace
@@ -26,8 +30,7 @@ Renderer::Renderer(const TwinOptions& options, const Phantom& phantom, const Las
       tissue_(options.seed, options.optics.light, options.optics.trouble),
       disturbances_(options.seed, options.optics.trouble),
       sensor_(options.seed, options.optics.sensor),
-      view_rays_(options.instrument.lens, options.optics.port, options.optics.prism.medium_index),
-      rays_(view_rays_, options.instrument.lens.width, options.instrument.lens.height),
+      rays_(view_rays(options), options.instrument.lens.width, options.instrument.lens.height),
       columns_(nodes_for(options.instrument.lens.width)),
       rows_(nodes_for(options.instrument.lens.height)),
       grid_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
@@ -39,65 +42,89 @@ int Renderer::pixel_v(int j) const {
   return std::min(j * kCell, options_.instrument.lens.height - 1);
 }
 
-Renderer::View Renderer::view_of(const Glance& glance) {
-  return {glance.phantom_from_camera.rotation().toRotationMatrix(), glance.phantom_from_camera.translation()};
+void Renderer::take_views(const std::vector<Glance>& glances) {
+  const Glance& middle = glances[glances.size() / 2];
+  middle_ = {middle.phantom_from_camera.rotation().toRotationMatrix(),
+             middle.phantom_from_camera.translation()};
+  seconds_ = middle.seconds;
+  shifts_.clear();
+  most_shift_ = 0;
+  for (const Glance& glance : glances) {
+    const auto relative = middle.phantom_from_camera.inverse() * glance.phantom_from_camera;
+    shifts_.push_back({relative.rotation().toRotationMatrix(), relative.translation()});
+    const double turn = relative.rotation().angularDistance(Eigen::Quaterniond::Identity());
+    most_shift_ = std::max(most_shift_, relative.translation().norm() + turn * kFarthestWork);
+  }
 }
 
-Renderer::Seen Renderer::look(const View& view, const ViewRay& ray) const {
+Renderer::Seen Renderer::look(const ViewRay& ray) const {
   Seen seen;
   if (!ray.lit()) return seen;
   Hit hit;
-  if (!phantom_.cast(view.rotation * ray.origin + view.eye, view.rotation * ray.direction, hit)) return seen;
+  const Vector3d from = middle_.rotation * ray.origin + middle_.eye, way = middle_.rotation * ray.direction;
+  if (!phantom_.cast(from, way, hit)) return seen;
   seen.hit = true;
   seen.point = ray.origin + hit.distance * ray.direction;
-  seen.normal = view.rotation.transpose() * hit.normal;
+  seen.normal = middle_.rotation.transpose() * hit.normal;
   return seen;
 }
 
-bool Renderer::shaded(const View& view, const Seen& seen, const Vector3d& light_direction) const {
+bool Renderer::shaded(const Seen& seen, const Vector3d& light_direction) const {
   if (phantom_.convex()) return false;
   constexpr double kLift = 1e-3;  // mm off the surface, so that it does not shade itself
   Hit blocker;
-  return phantom_.cast(view.rotation * (seen.point + kLift * seen.normal) + view.eye,
-                       view.rotation * -light_direction, blocker);
+  return phantom_.cast(middle_.rotation * (seen.point + kLift * seen.normal) + middle_.eye,
+                       middle_.rotation * -light_direction, blocker);
 }
 
 // The LEDs sit around the lens: light comes from where the camera is.
-Vector3d Renderer::white_light(const View& view, const Seen& seen) const {
+Vector3d Renderer::white_light(const Seen& seen) const {
   const LightOptions& light = options_.optics.light;
   if (!seen.hit || !(light.led_brightness > 0)) return Vector3d::Zero();
   const double distance = seen.point.norm();
   const double cosine = std::max(0.0, -seen.normal.dot(seen.point) / distance);
   const double falloff = light.reference_distance_mm / distance;
-  return light.led_brightness * falloff * falloff * cosine *
-         tissue_.albedo(view.rotation * seen.point + view.eye);
+  const Vector3d place = middle_.rotation * seen.point + middle_.eye;
+  return light.led_brightness * falloff * falloff * cosine * tissue_.albedo(place);
 }
 
-double Renderer::laser_level(const View& view, const Seen& seen, double seconds) const {
+double Renderer::level_at(const Shift& shift, const ViewRay& ray, const Seen& seen) const {
+  const Vector3d from = shift.rotation * ray.origin + shift.eye, way = shift.rotation * ray.direction;
+  const double along = seen.normal.dot(seen.point - from) / seen.normal.dot(way);
+  const SheetPlace place = laser_.sheet().at(ray.origin + along * ray.direction);
+  return laser_.level(place, shift.rotation.transpose() * seen.normal, seconds_);
+}
+
+double Renderer::laser_level(const ViewRay& ray, const Seen& seen) const {
   const SheetPlace place = laser_.sheet().at(seen.point);
-  const double level = laser_.level(place, seen.normal, seconds);
-  if (!(level > 0) || shaded(view, seen, place.direction)) return 0;
-  return level;
+  if (!laser_.touches(place, most_shift_)) return 0;
+  double sum = 0;
+  if (shifts_.size() == 1) sum = laser_.level(place, seen.normal, seconds_);
+  if (shifts_.size() > 1) {
+    for (const Shift& shift : shifts_) sum += level_at(shift, ray, seen);
+  }
+  if (!(sum > 0) || shaded(seen, place.direction)) return 0;
+  return sum / static_cast<double>(shifts_.size()) * laser_.passing(place.fan_angle, seconds_);
 }
 
-void Renderer::cast_grid(const View& view, bool with_white) {
+void Renderer::cast_grid() {
   for (int j = 0; j < rows_; ++j) {
     for (int i = 0; i < columns_; ++i) {
       Node& here = grid_[static_cast<std::size_t>(j * columns_ + i)];
-      here.seen = look(view, rays_.at(pixel_u(i), pixel_v(j)));
+      here.seen = look(rays_.at(pixel_u(i), pixel_v(j)));
       if (here.seen.hit) here.sheet = laser_.sheet().at(here.seen.point);
-      if (with_white) here.white = white_light(view, here.seen);
+      here.white = white_light(here.seen);
     }
   }
 }
 
-void Renderer::fill_white(const View& view) {
+void Renderer::fill_white() {
   for (int j = 0; j + 1 < rows_; ++j) {
-    for (int i = 0; i + 1 < columns_; ++i) fill_white_cell(view, i, j);
+    for (int i = 0; i + 1 < columns_; ++i) fill_white_cell(i, j);
   }
 }
 
-void Renderer::fill_white_cell(const View& view, int i, int j) {
+void Renderer::fill_white_cell(int i, int j) {
   const Node &a = node(i, j), &b = node(i + 1, j), &c = node(i, j + 1), &d = node(i + 1, j + 1);
   const int hits = a.seen.hit + b.seen.hit + c.seen.hit + d.seen.hit;
   if (hits == 0) return;
@@ -108,7 +135,7 @@ void Renderer::fill_white_cell(const View& view, int i, int j) {
     for (int u = u0; u <= u1; ++u) {
       const double fu = u1 > u0 ? static_cast<double>(u - u0) / (u1 - u0) : 0.0;
       const Vector3d white =
-          hits == 4 ? Vector3d(left + fu * (right - left)) : white_light(view, look(view, rays_.at(u, v)));
+          hits == 4 ? Vector3d(left + fu * (right - left)) : white_light(look(rays_.at(u, v)));
       auto& pixel = light_.at(u, v);
       for (int k = 0; k < 3; ++k) pixel[static_cast<std::size_t>(k)] = static_cast<float>(white[k]);
     }
@@ -118,40 +145,42 @@ void Renderer::fill_white_cell(const View& view, int i, int j) {
 // The line may cross a cell whose corners are all off it: the offset between corners tells how far to be
 // careful.
 bool Renderer::near_line(int i, int j) const {
-  double lowest = 1e300, highest = -1e300, reach = 0;
+  double lowest = 1e300, highest = -1e300;
+  LaserLight::Band band{0, 0};
   for (const Node* corner : {&node(i, j), &node(i + 1, j), &node(i, j + 1), &node(i + 1, j + 1)}) {
     if (!corner->seen.hit) continue;
     lowest = std::min(lowest, corner->sheet.offset);
     highest = std::max(highest, corner->sheet.offset);
-    reach = std::max(reach, laser_.reach(corner->sheet.distance));
+    const LaserLight::Band here = laser_.band(corner->sheet.distance);
+    band = {std::min(band.low, here.low), std::max(band.high, here.high)};
   }
   if (lowest > highest) return false;
-  const double care = reach + 0.5 * (highest - lowest);
-  return lowest - care <= 0 && highest + care >= 0;
+  const double care = 0.5 * (highest - lowest) + most_shift_;
+  return lowest - care <= band.high && highest + care >= band.low;
 }
 
-void Renderer::add_line(const View& view, double seconds, double share, std::uint64_t index) {
+void Renderer::add_line() {
   for (int j = 0; j + 1 < rows_; ++j) {
     for (int i = 0; i + 1 < columns_; ++i) {
-      if (near_line(i, j)) add_line_cell(view, i, j, seconds, share, index);
+      if (near_line(i, j)) add_line_cell(i, j);
     }
   }
 }
 
 // Cells own their left and upper edge; the picture's last column and row belong to the last cells.
-void Renderer::add_line_cell(const View& view, int i, int j, double seconds, double share,
-                             std::uint64_t index) {
+void Renderer::add_line_cell(int i, int j) {
   const int u1 = pixel_u(i + 1) + (i + 2 == columns_), v1 = pixel_v(j + 1) + (j + 2 == rows_);
   for (int v = pixel_v(j); v < v1; ++v) {
     for (int u = pixel_u(i); u < u1; ++u) {
-      const Seen seen = look(view, rays_.at(u, v));
+      const ViewRay& ray = rays_.at(u, v);
+      const Seen seen = look(ray);
       if (!seen.hit) continue;
-      const double level = laser_level(view, seen, seconds);
+      const double level = laser_level(ray, seen);
       if (!(level > 0)) continue;
-      const double grain = speckle_factor(options_.optics.line, options_.seed, index, u, v);
+      const double grain = speckle_factor(options_.optics.line, options_.seed, index_, u, v);
       auto& pixel = light_.at(u, v);
       for (int k = 0; k < 3; ++k) {
-        pixel[static_cast<std::size_t>(k)] += static_cast<float>(share * level * grain * kLaserColour[k]);
+        pixel[static_cast<std::size_t>(k)] += static_cast<float>(level * grain * kLaserColour[k]);
       }
     }
   }
@@ -159,17 +188,12 @@ void Renderer::add_line_cell(const View& view, int i, int j, double seconds, dou
 
 void Renderer::render(const std::vector<Glance>& glances, std::uint64_t index, cv::Mat& bgr) {
   light_.clear(options_.instrument.lens.width, options_.instrument.lens.height);
-  const std::size_t middle = glances.size() / 2;
-  const View middle_view = view_of(glances[middle]);
-  cast_grid(middle_view, true);
-  fill_white(middle_view);
-  const double share = 1.0 / static_cast<double>(glances.size());
-  for (std::size_t k = 0; k < glances.size(); ++k) {
-    const View view = view_of(glances[k]);
-    if (k != 0 || glances.size() > 1) cast_grid(view, false);
-    add_line(view, glances[k].seconds, share, index);
-  }
-  disturbances_.add(light_, glances[middle].seconds);
+  index_ = index;
+  take_views(glances);
+  cast_grid();
+  fill_white();
+  add_line();
+  disturbances_.add(light_, seconds_);
   sensor_.expose(light_, index, bgr);
 }
 

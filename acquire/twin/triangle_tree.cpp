@@ -120,22 +120,28 @@ std::optional<TriangleTree::RayHit> TriangleTree::cast(const Vector3d& origin,
                                                        const Vector3d& direction) const {
   const Vector3d inverse = safe_inverse(direction);
   RayHit best{std::numeric_limits<double>::infinity(), -1};
-  std::array<int, kStackDepth> stack{};
-  int depth = 0;
-  stack[static_cast<std::size_t>(depth++)] = 0;
+  struct Waiting {
+    int node;
+    double entry;
+  };
+  std::array<Waiting, kStackDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {0, entry(nodes_[0].box, origin, inverse, best.distance)};
   while (depth > 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack[static_cast<std::size_t>(--depth)])];
-    if (!std::isfinite(entry(node.box, origin, inverse, best.distance))) continue;
+    const Waiting next = stack[--depth];
+    if (!(next.entry < best.distance)) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     if (node.count > 0) {
       search_leaf(node, origin, direction, best);
       continue;
     }
-    int near = node.first, far = node.first + 1;
-    const double a = entry(nodes_[static_cast<std::size_t>(near)].box, origin, inverse, best.distance);
-    const double b = entry(nodes_[static_cast<std::size_t>(far)].box, origin, inverse, best.distance);
-    if (b < a) std::swap(near, far);
-    stack[static_cast<std::size_t>(depth++)] = far;
-    stack[static_cast<std::size_t>(depth++)] = near;
+    Waiting near{node.first, 0}, far{node.first + 1, 0};
+    for (Waiting* child : {&near, &far}) {
+      child->entry = entry(nodes_[static_cast<std::size_t>(child->node)].box, origin, inverse, best.distance);
+    }
+    if (far.entry < near.entry) std::swap(near, far);
+    if (std::isfinite(far.entry)) stack[depth++] = far;
+    if (std::isfinite(near.entry)) stack[depth++] = near;
   }
   if (best.triangle < 0) return std::nullopt;
   return best;
