@@ -1,0 +1,61 @@
+// Tests with a living test publisher, and programs run against it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "ipc/segment_reader.hpp"
+#include "tests/integration/ipc/child.hpp"
+
+namespace linescope::testing {
+
+struct Finished {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string output;  ///< standard output and errors
+};
+
+class PublisherTest : public ::testing::Test {
+ protected:
+  void start_publisher(const std::string& lines_per_second) {
+    publisher_ =
+        std::make_unique<Child>(Child::program({LINESCOPE_IPC_PUBLISHER, name_, lines_per_second}, log_));
+    for (int i = 0; i < 2'000 && !publishes(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(publishes());
+  }
+
+  /// Lines, a picture and all poses are there.
+  bool publishes() const {
+    auto reader = SegmentReader::attach({.name = name_});
+    Picture picture;
+    PoseSample pose;
+    return reader && reader->picture(picture) == ReadOutcome::ok &&
+           reader->latest_pose(7, pose) == ReadOutcome::ok;
+  }
+
+  Finished run(const std::vector<std::string>& arguments) const {
+    const std::string output = log_ + ".run";
+    const int status = Child::program(arguments, output).wait();
+    std::ifstream in(output);
+    Finished finished{WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(in), {}}};
+    ::unlink(output.c_str());
+    return finished;
+  }
+
+  void TearDown() override {
+    publisher_.reset();
+    ::unlink(("/dev/shm/" + name_).c_str());
+    ::unlink(("/dev/shm/" + name_ + "-control").c_str());
+    ::unlink(log_.c_str());
+  }
+
+  const std::string name_ = "linescope-live-" + std::to_string(::getpid());
+  const std::string log_ = ::testing::TempDir() + name_ + ".log";
+  std::unique_ptr<Child> publisher_;
+};
+
+}  // namespace linescope::testing
