@@ -18,6 +18,8 @@ void declare_run(ConfigSchema& schema, RunOptions& run) {
   schema.flag("run.scan_at_start", run.scan_at_start, "Scan at once instead of waiting for the Scan button.");
   schema.choice("run.pace", run.pace, {{"real-time", Pace::real_time}, {"fast", Pace::fast}},
                 "Speed at which recorded and simulated sources are played.");
+  schema.path("run.record", run.record, "Folder to which pictures and samples are recorded; empty: none.");
+  schema.path("run.replay", run.replay, "Recording to play instead of camera and tracker; empty: none.");
   schema.flag(
       "run.exit_at_end", run.exit_at_end,
       "End when a recorded source is through; otherwise the segment stays until the daemon is stopped.");
@@ -49,13 +51,30 @@ void declare_camera(ConfigSchema& schema, CameraChoice& camera) {
 
 void declare_tracker(ConfigSchema& schema, TrackerChoice& tracker) {
   schema.section("tracker", "Where the poses come from.");
-  schema.text("tracker.source", tracker.source, "\"twin\", \"none\", or a CSV file of poses.");
+  schema.text("tracker.source", tracker.source, "\"twin\", \"liberty\", \"none\", or a CSV file of poses.");
   schema.integer("tracker.endoscope_station", tracker.roles.endoscope, {.min = -1, .max = 7},
                  "Station of sensor 1, counted from 0; -1: none.");
   schema.integer("tracker.object_station", tracker.roles.object, {.min = -1, .max = 7},
                  "Station of sensor 2, on the knee; -1: none.");
   schema.integer("tracker.harvester_station", tracker.roles.harvester, {.min = -1, .max = 7},
                  "Station of sensor 3; -1: none.");
+}
+
+void declare_liberty(ConfigSchema& schema, LibertyOptions& liberty) {
+  schema.section("liberty", "The Polhemus LIBERTY; used where the tracker is \"liberty\" (docs/liberty.md).");
+  schema.choice("liberty.port", liberty.port, {{"usb", LibertyPort::usb}, {"serial", LibertyPort::serial}},
+                "How it is connected.");
+  schema.text("liberty.usb_path", liberty.usb_path,
+              "Bus and ports as in 1-2.3, where there are several; empty: the only one.");
+  schema.text("liberty.serial_device", liberty.serial_device, "Device of the serial line.");
+  schema.integer("liberty.baud", liberty.baud, {.unit = "baud", .min = 38400, .max = 115200},
+                 "Speed of the serial line: 38400, 57600 or 115200.");
+  schema.integer("liberty.rate_hz", liberty.rate_hz, {.unit = "Hz", .min = 120, .max = 240},
+                 "Cycles per second: 120 or 240.");
+  schema.integer("liberty.distortion_limit", liberty.distortion_limit, {.min = 1, .max = 2},
+                 "Level of the distortion item from which a pose counts as taken in a distorted field.");
+  schema.flag("liberty.ask_distortion", liberty.ask_distortion,
+              "Ask for the distortion item; without it metal near by goes unnoticed.");
 }
 
 void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
@@ -129,12 +148,19 @@ Result<void> roles_apart(const StationRoles& r) {
   return {};
 }
 
+Result<void> validate_stages(const AcquireOptions& options) {
+  if (auto laser = validate(options.laser); !laser) return laser;
+  if (auto reconstruct = validate(options.reconstruct); !reconstruct) return reconstruct;
+  return validate(options.tracker.history);
+}
+
 }  // namespace
 
 void declare(ConfigSchema& schema, AcquireOptions& options) {
   declare_run(schema, options.run);
   declare_camera(schema, options.camera);
   declare_tracker(schema, options.tracker);
+  declare_liberty(schema, options.tracker.liberty);
   declare_laser(schema, options.laser);
   declare_reconstruct(schema, options);
   declare_twin(schema, options.twin);
@@ -144,6 +170,12 @@ Result<void> validate(const AcquireOptions& options) {
   if (auto segment = validate(SegmentOptions{.name = options.run.segment, .group = options.run.group});
       !segment)
     return segment;
+  if (auto roles = roles_apart(options.tracker.roles); !roles) return roles;
+  if (options.tracker.source == "liberty") {
+    if (auto liberty = validate(options.tracker.liberty); !liberty) return liberty;
+  }
+  if (auto stages = validate_stages(options); !stages) return stages;
+  if (!options.run.replay.empty()) return {};
   if ((options.camera.source == "twin") != (options.tracker.source == "twin")) {
     return fail(
         ErrorCode::invalid,
@@ -154,10 +186,7 @@ Result<void> validate(const AcquireOptions& options) {
                 "no calibration: give --calibration FILE (or thesis-camera-i, thesis-camera-ii) for pictures "
                 "that are not the twin's");
   }
-  if (auto roles = roles_apart(options.tracker.roles); !roles) return roles;
-  if (auto laser = validate(options.laser); !laser) return laser;
-  if (auto reconstruct = validate(options.reconstruct); !reconstruct) return reconstruct;
-  return validate(options.tracker.history);
+  return {};
 }
 
 }  // namespace linescope

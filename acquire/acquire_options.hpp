@@ -9,6 +9,7 @@
 #include "acquire/camera/v4l2_device.hpp"
 #include "acquire/laser/line_extractor_options.hpp"
 #include "acquire/reconstruct/line_reconstructor.hpp"
+#include "acquire/tracker/liberty/liberty_options.hpp"
 #include "acquire/tracker/pose_history.hpp"
 #include "common/config_schema.hpp"
 #include "common/time.hpp"
@@ -33,7 +34,9 @@ struct RunOptions {
   int capacity_minutes = 5;  ///< scanning time the segment holds at 30 lines per second
   bool scan_at_start = false;
   Pace pace = Pace::real_time;
-  bool exit_at_end = false;  ///< stop when a recorded source has given its last picture
+  std::filesystem::path record;  ///< folder to record everything to; empty: nothing is recorded
+  std::filesystem::path replay;  ///< recording to play instead of camera and tracker; empty: none
+  bool exit_at_end = false;      ///< stop when a recorded source has given its last picture
 };
 
 struct CameraChoice {
@@ -45,6 +48,7 @@ struct CameraChoice {
 struct TrackerChoice {
   std::string source = "twin";  ///< "twin", "liberty", "none" or a CSV file
   StationRoles roles;
+  LibertyOptions liberty;
   PoseHistoryOptions history;
   Nanoseconds longest_wait = 60 * kMillisecond;  ///< for the poses of a picture to arrive
 };

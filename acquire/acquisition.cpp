@@ -26,4 +26,10 @@ Result<std::unique_ptr<Acquisition>> Acquisition::create(const AcquireOptions& o
       new Acquisition(options, std::move(sources), std::move(*reconstructor), writer, stop));
 }
 
+void Acquisition::record_to(std::unique_ptr<Recorder> new_recorder) {
+  recorder = std::move(new_recorder);
+  desk.record_to(recorder.get());
+  state.watch(recorder.get());
+}
+
 }  // namespace linescope

@@ -8,6 +8,7 @@
 #include "acquire/command_desk.hpp"
 #include "acquire/line_pipeline.hpp"
 #include "acquire/pose_intake.hpp"
+#include "acquire/record/recorder.hpp"
 #include "acquire/sources.hpp"
 #include "acquire/state_report.hpp"
 #include "acquire/tool_poses.hpp"
@@ -21,6 +22,9 @@ class Acquisition {
   static Result<std::unique_ptr<Acquisition>> create(const AcquireOptions& options, Sources sources,
                                                      SegmentWriter& writer, std::atomic<bool>& stop);
 
+  /// From here on every picture and sample goes to `recorder`, too. Before the run starts.
+  void record_to(std::unique_ptr<Recorder> recorder);
+
   const RunOptions run;
   const Nanoseconds longest_wait;
   Sources sources;
@@ -32,6 +36,7 @@ class Acquisition {
   StateReport state;
   LinePipeline pipeline;
   std::unique_ptr<PoseIntake> intake;  ///< null without a tracker
+  std::unique_ptr<Recorder> recorder;  ///< null: nothing is recorded
 
  private:
   Acquisition(const AcquireOptions& options, Sources given, LineReconstructor reconstructor,

@@ -25,6 +25,8 @@ void CommandDesk::attend(Nanoseconds now) {
     CommandAnswer answer = carry_out(command, now);
     spdlog::info("command {} from pid {}: {} {}", name(command.kind), command.sender_pid, name(answer.kind),
                  answer.text);
+    if (recorder_ != nullptr)
+      recorder_->add_event(now, fmt::format("{}: {}", name(command.kind), name(answer.kind)));
     return answer;
   });
 }

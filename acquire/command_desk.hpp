@@ -5,6 +5,7 @@
 #include <string>
 
 #include "acquire/camera/camera_source.hpp"
+#include "acquire/record/recorder.hpp"
 #include "acquire/scan_control.hpp"
 #include "acquire/scan_saver.hpp"
 #include "ipc/control.hpp"
@@ -15,6 +16,9 @@ class CommandDesk {
  public:
   /// `stop` is set by the command shut down. All references must outlive the desk.
   CommandDesk(SegmentWriter& writer, ScanControl& scan, CameraSource& camera, std::atomic<bool>& stop);
+
+  /// Every command becomes an event of the recording; null: none.
+  void record_to(Recorder* recorder) { recorder_ = recorder; }
 
   /// Carries out whatever is waiting; never waits itself.
   void attend(Nanoseconds now);
@@ -31,6 +35,7 @@ class CommandDesk {
   ControlServer server_;
   ScanSaver saver_;
   CommandId saving_ = 0;
+  Recorder* recorder_ = nullptr;
 };
 
 }  // namespace linescope

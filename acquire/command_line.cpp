@@ -45,12 +45,16 @@ void declare_options(CLI::App& app, Typed& typed) {
   assignment_option(app, typed, "--segment", "run.segment", "Name of the shared-memory segment", "NAME");
   assignment_option(app, typed, "--camera", "camera.source",
                     "twin, a folder of pictures, a video file, or a camera", "SOURCE");
-  assignment_option(app, typed, "--tracker", "tracker.source", "twin, none, or a CSV file of poses",
+  assignment_option(app, typed, "--tracker", "tracker.source", "twin, liberty, none, or a CSV file of poses",
                     "SOURCE");
   assignment_option(app, typed, "--calibration", "reconstruct.calibration",
                     "Calibration file, thesis-camera-i or thesis-camera-ii", "FILE");
   assignment_option(app, typed, "--seed", "twin.seed", "Seed of the twin: same seed, same bytes", "N");
   assignment_option(app, typed, "--truth", "twin.truth", "Write the twin's truth there (JSON)", "FILE");
+  assignment_option(app, typed, "--record", "run.record", "Record pictures and samples to this folder",
+                    "DIR");
+  assignment_option(app, typed, "--replay", "run.replay", "Play a recording instead of camera and tracker",
+                    "DIR");
   assignment_flag(app, typed, "--scan", "run.scan_at_start=true", "Scan at once");
   assignment_flag(app, typed, "--fast", "run.pace=fast",
                   "Play recorded and simulated sources as fast as possible");

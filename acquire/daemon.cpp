@@ -31,6 +31,21 @@ SegmentOptions segment_options(const RunOptions& run, const CameraModel& camera)
   return o;
 }
 
+RecordingInfo recording_info(const CommandLine& command, const Sources& sources) {
+  RecordingInfo info;
+  info.version = kVersion;
+  info.camera = sources.camera->description();
+  info.tracker = sources.tracker ? sources.tracker->description() : "none";
+  info.configuration = command.configuration;
+  info.calibration = sources.calibration;
+  const StationRoles& roles = command.options.tracker.roles;
+  info.endoscope_station = roles.endoscope;
+  info.object_station = roles.object;
+  info.harvester_station = roles.harvester;
+  info.camera_period = sources.camera->period();
+  return info;
+}
+
 ExitCode exit_of(const Error& segment_error) {
   return segment_error.code == ErrorCode::busy ? ExitCode::already_running : ExitCode::segment;
 }
@@ -70,6 +85,12 @@ tl::expected<void, Refusal> run_daemon(const CommandLine& command, std::atomic<b
   const bool live = sources->live;
   auto acquisition = Acquisition::create(options, std::move(*sources), *writer, stop);
   if (!acquisition) return Refused(Refusal{ExitCode::calibration, acquisition.error().message});
+  if (!options.run.record.empty()) {
+    auto recorder =
+        Recorder::start({.folder = options.run.record}, recording_info(command, (*acquisition)->sources));
+    if (!recorder) return Refused(Refusal{ExitCode::failed, recorder.error().message});
+    (*acquisition)->record_to(std::move(*recorder));
+  }
   if (options.run.scan_at_start) (*acquisition)->scan.start(monotonic_now());
   {
     const TakenOverWatch watch(heartbeat, stop);

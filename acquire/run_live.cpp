@@ -11,7 +11,10 @@ void follow_tracker(Acquisition& a) {
   while (!a.stop) {
     auto pulled = a.sources.tracker->next(sample);
     if (!pulled) a.intake->note(pulled.error());
-    if (pulled && *pulled == Pull::item) a.intake->take(sample);
+    if (pulled && *pulled == Pull::item) {
+      if (a.recorder) a.recorder->add(sample);
+      a.intake->take(sample);
+    }
     a.intake->report(monotonic_now());
     if (!pulled || *pulled == Pull::end) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -26,6 +29,7 @@ void wait_for_poses(const Acquisition& a, Nanoseconds instant) {
 }
 
 void take_picture(Acquisition& a, const Frame& frame) {
+  if (a.recorder) a.recorder->add(frame);
   a.state.frame(frame);
   a.pipeline.show(frame);
   if (a.intake && a.scan.scanning()) wait_for_poses(a, a.pipeline.instant(frame));

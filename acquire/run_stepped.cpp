@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "acquire/acquisition.hpp"
@@ -39,6 +40,7 @@ class SteppedRun {
       auto pulled = a_.sources.camera->next(frame_.item);
       if (pulled) {
         frame_.full = *pulled == Pull::item;
+        if (frame_.full) frame_.item.time += shift(frame_.item.time);
         frame_.ended = *pulled == Pull::end;
         continue;
       }
@@ -53,12 +55,21 @@ class SteppedRun {
       auto pulled = a_.sources.tracker->next(sample_.item);
       if (pulled) {
         sample_.full = *pulled == Pull::item;
+        if (sample_.full) sample_.item.time += shift(sample_.item.time);
         sample_.ended = *pulled == Pull::end;
         continue;
       }
       a_.intake->note(pulled.error());
       sample_.ended = pulled.error().code != ErrorCode::unreadable;
     }
+  }
+
+  /// A recording is played as if it happened now: all its times are moved by the same amount, so that viewers
+  /// see fresh poses. As fast as possible, its times stay what they were.
+  Nanoseconds shift(Nanoseconds time) {
+    if (a_.run.replay.empty() || a_.run.pace == Pace::fast) return 0;
+    if (!shift_) shift_ = monotonic_now() - time;
+    return *shift_;
   }
 
   /// The earlier of picture and sample; a picture whose poses are still to come lets samples go first.
@@ -77,6 +88,7 @@ class SteppedRun {
 
   void handle_frame() {
     if (!wait_until(frame_.item.time)) return;
+    if (a_.recorder) a_.recorder->add(frame_.item);
     a_.state.frame(frame_.item);
     a_.pipeline.show(frame_.item);
     a_.pipeline.place(frame_.item);
@@ -86,6 +98,7 @@ class SteppedRun {
 
   void handle_sample() {
     if (!wait_until(sample_.item.time)) return;
+    if (a_.recorder) a_.recorder->add(sample_.item);
     a_.intake->take(sample_.item);
     sample_.full = false;
     attend();
@@ -111,6 +124,7 @@ class SteppedRun {
   Acquisition& a_;
   Ahead<Frame> frame_;
   Ahead<PoseSample> sample_;
+  std::optional<Nanoseconds> shift_;
 };
 
 }  // namespace

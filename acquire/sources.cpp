@@ -7,7 +7,11 @@
 
 #include "acquire/camera/camera_choice.hpp"
 #include "acquire/camera/picture_folder.hpp"
+#include "acquire/record/recorded_camera.hpp"
+#include "acquire/record/recorded_tracker.hpp"
+#include "acquire/record/recording.hpp"
 #include "acquire/tracker/csv_reader.hpp"
+#include "acquire/tracker/liberty/liberty_source.hpp"
 #include "acquire/tracker/picture_pose_source.hpp"
 #include "acquire/tracker/timed_pose_source.hpp"
 #include "acquire/twin/twin_camera.hpp"
@@ -147,18 +151,49 @@ tl::expected<Sources, Refusal> other_sources(const AcquireOptions& options, Nano
   // Started before the poses are read: a folder without pictures is the camera's fault, not the pose file's.
   if (auto ok = sources.camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
   if (options.tracker.source == "none") return sources;
+  if (options.tracker.source == "liberty") {
+    if (!sources.camera->live()) {
+      return refuse(ExitCode::configuration,
+                    "recorded pictures and a live tracker do not belong to one instant: choose a camera, or "
+                    "a file of poses");
+    }
+    sources.tracker = std::make_unique<LibertySource>(options.tracker.liberty);
+    return sources;
+  }
+  if (sources.camera->live()) {
+    return refuse(ExitCode::configuration,
+                  "a live camera and recorded poses do not belong to one instant: choose tracker \"liberty\" "
+                  "or \"none\"");
+  }
   auto tracker = pose_file(options, sources.calibration.camera_latency, start);
   if (!tracker) return refuse(ExitCode::tracker, tracker.error().message);
   sources.tracker = std::move(*tracker);
   return sources;
 }
 
+tl::expected<Sources, Refusal> replayed_sources(const std::filesystem::path& folder) {
+  auto recording = open_recording(folder);
+  if (!recording) return refuse(ExitCode::camera, recording.error().message);
+  Sources sources;
+  sources.calibration = recording->info.calibration;
+  sources.camera = std::make_unique<RecordedCamera>(folder);
+  sources.tracker = std::make_unique<RecordedTracker>(folder);
+  if (auto ok = sources.camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
+  return sources;
+}
+
+tl::expected<Sources, Refusal> chosen_sources(const AcquireOptions& options, Nanoseconds start) {
+  if (!options.run.replay.empty()) return replayed_sources(options.run.replay);
+  return is_twin(options) ? twin_sources(options, start) : other_sources(options, start);
+}
+
 }  // namespace
 
 tl::expected<Sources, Refusal> make_sources(const AcquireOptions& options, Nanoseconds start) {
-  auto sources = is_twin(options) ? twin_sources(options, start) : other_sources(options, start);
+  auto sources = chosen_sources(options, start);
   if (!sources) return sources;
-  if (is_twin(options) && !options.calibration.empty()) {
+  const bool brings_its_own = is_twin(options) || !options.run.replay.empty();
+  if (brings_its_own && !options.calibration.empty()) {
     auto calibration = named_calibration(options.calibration);
     if (!calibration) return refuse(ExitCode::calibration, calibration.error().message);
     sources->calibration = std::move(*calibration);

@@ -78,11 +78,22 @@ void StateReport::report_camera(const CameraStatus& status, Nanoseconds now) {
 
 void StateReport::report_daemon(const CameraStatus& status) {
   auto [state, reason] = daemon_state(status, tracker_, writer_);
+  if (recorder_ != nullptr) {
+    const RecorderStatus recording = recorder_->status();
+    count_recording(recording);
+    if (reason.empty()) reason = recording.reason;
+  }
   if (state == state_ && reason == reason_) return;
   spdlog::info("{}{}{}", name(state), reason.empty() ? "" : ": ", reason);
   state_ = state;
   reason_ = std::move(reason);
   writer_.set_state(state_, reason_);
+}
+
+void StateReport::count_recording(const RecorderStatus& status) {
+  const std::uint64_t lost = status.counters.lost();
+  if (lost > recording_lost_) writer_.count(Counter::recording_dropped, lost - recording_lost_);
+  recording_lost_ = lost;
 }
 
 void StateReport::count_losses(const CameraCounters& now) {

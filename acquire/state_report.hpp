@@ -4,6 +4,7 @@
 #include <string>
 
 #include "acquire/camera/camera_source.hpp"
+#include "acquire/record/recorder.hpp"
 #include "acquire/tracker/tracker_source.hpp"
 #include "ipc/segment_writer.hpp"
 
@@ -13,6 +14,9 @@ class StateReport {
  public:
   /// `tracker` may be null. All references must outlive the report.
   StateReport(const CameraSource& camera, const TrackerSource* tracker, SegmentWriter& writer);
+
+  /// What the recorder loses is counted and said; null: nothing is recorded.
+  void watch(const Recorder* recorder) { recorder_ = recorder; }
 
   /// A picture that could not be used.
   void note(const Error& error);
@@ -27,12 +31,15 @@ class StateReport {
   void report_camera(const CameraStatus& status, Nanoseconds now);
   void report_daemon(const CameraStatus& status);
   void count_losses(const CameraCounters& now);
+  void count_recording(const RecorderStatus& status);
 
   const CameraSource& camera_;
   const TrackerSource* tracker_;
   SegmentWriter& writer_;
   CameraReport report_;
   CameraCounters counted_;
+  const Recorder* recorder_ = nullptr;
+  std::uint64_t recording_lost_ = 0;
   std::string complaint_;
   DaemonState state_ = DaemonState::starting;
   std::string reason_;
