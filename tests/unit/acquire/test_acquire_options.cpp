@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "acquire/acquire_options.hpp"
 #include "acquire/command_line.hpp"
 
@@ -14,16 +12,6 @@ TEST(AcquireOptions, DeclarationsAreWithoutMistakeAndDefaultsAreValid) {
   declare(schema, options);
   for (const ConfigFault& fault : schema.check()) ADD_FAILURE() << fault.message;
   EXPECT_TRUE(validate(options)) << validate(options).error().message;
-}
-
-TEST(AcquireOptions, TheDocumentedTablesAreThoseOfTheProgram) {
-  AcquireOptions options;
-  ConfigSchema schema;
-  declare(schema, options);
-  std::ifstream in(LINESCOPE_DOCS "/configuration.md");
-  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  EXPECT_NE(page.find(schema.to_markdown()), std::string::npos)
-      << "docs/configuration.md is out of date: linescope-acquire --print-keys prints its tables";
 }
 
 TEST(AcquireOptions, WhatNoSingleKeyShowsIsRefused) {
