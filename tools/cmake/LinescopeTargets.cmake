@@ -26,15 +26,29 @@ function(linescope_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# linescope_test(NAME LABELS unit surface SOURCES ... LIBS ... [TIMEOUT s]): one GoogleTest program, a CTest test per case.
+# What the sanitizer builds need of the tests: all unit and fuzz tests, and those in which threads meet.
+add_custom_target(tests_sanitized)
+add_custom_target(tests_threads)
+
+# linescope_test(NAME LABELS unit surface SOURCES ... LIBS ... [TIMEOUT s] [THREADS]): one GoogleTest program, a CTest test
+# per case. THREADS: worth running under ThreadSanitizer.
 function(linescope_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "LABELS;SOURCES;LIBS" ${ARGN})
+  if(ARG_THREADS)
+    list(APPEND ARG_LABELS threads)
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
     linescope_warnings linescope_sanitize)
+  if("unit" IN_LIST ARG_LABELS OR "fuzz" IN_LIST ARG_LABELS)
+    add_dependencies(tests_sanitized ${name})
+  endif()
+  if(ARG_THREADS)
+    add_dependencies(tests_threads ${name})
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_cases
     PROPERTIES TIMEOUT ${ARG_TIMEOUT})
   # gtest_discover_tests flattens lists in PROPERTIES, so several labels are set once the cases are known.
