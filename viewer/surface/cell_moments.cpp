@@ -10,15 +10,15 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {0, 1}, {0, 
 
 }  // namespace
 
-void CellContent::add_line(const MomentSums& line, const std::array<std::int32_t, 3>& towards_camera) {
-  sums.add(line);
-  ++lines;
-  const double inverse = 1.0 / static_cast<double>(line.weight());
-  for (std::size_t i = 0; i < 6; ++i)
-    lines_apart[i] += static_cast<std::int64_t>(static_cast<double>(line.first[kPairs[i][0]]) *
-                                                    static_cast<double>(line.first[kPairs[i][1]]) * inverse +
-                                                0.5);
-  for (std::size_t i = 0; i < 3; ++i) towards[i] += towards_camera[i];
+void LineParts::add(const std::array<std::int64_t, 4>& part) {
+  const double inverse = 1.0 / static_cast<double>(part[3]);
+  for (std::size_t i = 0; i < 4; ++i) first[i] += part[i];
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double square =
+        static_cast<double>(part[kPairs[i][0]]) * static_cast<double>(part[kPairs[i][1]]) * inverse;
+    second[i] += static_cast<std::int64_t>(square + (square < 0 ? -0.5 : 0.5));
+  }
+  ++count;
 }
 
 CellStatistics statistics_of(const CellContent& cell) {
@@ -32,17 +32,19 @@ CellStatistics statistics_of(const CellContent& cell) {
   result.weight = static_cast<double>(s.weight());
   result.points = static_cast<double>(s.points());
   result.lines = cell.lines;
+  result.parts = static_cast<double>(cell.parts.count);
+  result.parts_weight = static_cast<double>(cell.parts.first[3]);
   std::array<double, 3> mean{};  // in steps
   for (std::size_t i = 0; i < 3; ++i) {
     mean[i] = static_cast<double>(s.first[i]) * inverse;
     result.mean[i] = (mean[i] + 0.5) * unit;  // a point lies in the middle of its step
     result.towards[i] = cell.towards[i] * (1.0 / 256);
+    result.parts_sum[i] = static_cast<double>(cell.parts.first[i]) * unit;
   }
   for (std::size_t i = 0; i < 6; ++i) {
     const double square = mean[kPairs[i][0]] * mean[kPairs[i][1]];
     result.covariance[i] = (static_cast<double>(second[i]) * inverse - square) * (unit * unit);
-    result.lines_apart[i] =
-        (static_cast<double>(cell.lines_apart[i]) - square * result.weight) * (unit * unit);
+    result.parts_squares[i] = static_cast<double>(cell.parts.second[i]) * (unit * unit);
   }
   return result;
 }

@@ -27,18 +27,27 @@ struct alignas(32) MomentSums {
   }
 };
 
+/// What tells lines apart: sums over the parts that lines have in a column of cubes. A part is all of a
+/// line's points in the column, booked in the cube that holds most of them: noise splits a line over the
+/// cubes of a column, and its mean within one of them would say little about where the line lies.
+struct LineParts {
+  std::array<std::int64_t, 4>
+      first{};  ///< as MomentSums, about the lowest corner of the cube it is booked in
+  std::array<std::int64_t, 6>
+      second{};  ///< sum of (first of the part)(the same)^T / its weight: xx xy xz yy yz zz
+  std::int64_t count = 0;
+
+  void add(const std::array<std::int64_t, 4>& part);
+};
+
 /// Everything a cube knows; what an undo puts back.
 struct CellContent {
   MomentSums sums;
-  std::array<std::int64_t, 6>
-      lines_apart{};  ///< sum over lines of (their sum)(the same)^T / their weight: xx xy xz yy yz zz
+  LineParts parts;
   std::array<std::int32_t, 3> towards{};  ///< sum over lines of the unit vector to the camera, 1/256
   std::int32_t lines = 0;                 ///< lines with a point here
 
   bool occupied() const { return sums.points() != 0; }
-
-  /// Takes in one line's points of this cube; `towards_camera` in 1/256.
-  void add_line(const MomentSums& line, const std::array<std::int32_t, 3>& towards_camera);
 };
 
 /// The same as means, in units of the interval: what fits are made of.
@@ -46,10 +55,14 @@ struct CellStatistics {
   double weight = 0;
   double points = 0;
   double lines = 0;
-  std::array<double, 3> mean{};         ///< from the cube's lowest corner, 0..1
-  std::array<double, 6> covariance{};   ///< of the points about the mean: xx xy xz yy yz zz
-  std::array<double, 6> lines_apart{};  ///< weighted sum over lines of (their mean - the mean)(the same)^T
-  std::array<double, 3> towards{};      ///< sum of unit vectors to the camera, one per line
+  std::array<double, 3> mean{};        ///< from the cube's lowest corner, 0..1
+  std::array<double, 6> covariance{};  ///< of the points about the mean: xx xy xz yy yz zz
+  std::array<double, 3> towards{};     ///< sum of unit vectors to the camera, one per line
+  double parts = 0;                    ///< LineParts: how many,
+  double parts_weight = 0;             ///< their weight,
+  std::array<double, 3> parts_sum{};   ///< weighted sum of their means
+  std::array<double, 6>
+      parts_squares{};  ///< and of their means' squares, about the lowest corner: xx xy xz yy yz zz
 };
 
 CellStatistics statistics_of(const CellContent& cell);

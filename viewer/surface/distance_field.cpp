@@ -44,6 +44,17 @@ Stamp stamp_of(const SurfacePatch& patch, int sign) {
   return stamp;
 }
 
+// Points that fill the four columns around a vertex evenly up to a straight border at distance b (at most 1)
+// have their mean (1 - b) / 2 off the vertex, counted across the columns. Noise moves the mean along the
+// normal: that is taken out.
+float support_of(const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
+  Eigen::Vector3d across = centre - normal * centre.dot(normal);
+  Eigen::Index along = 0;
+  normal.cwiseAbs().maxCoeff(&along);
+  across[along] = 0;
+  return static_cast<float>(1 - 2 * across.norm());
+}
+
 GridIndex plus(GridIndex at, int axis, int step) {
   (axis == 0 ? at.x : axis == 1 ? at.y : at.z) += step;
   return at;
@@ -142,9 +153,7 @@ void DistanceField::evaluate(FieldVertex& vertex) {
   vertex.normal = direction.cast<float>();
   vertex.distance = static_cast<float>(mean(s.distance, kDistanceUnit));
   vertex.deviation = static_cast<float>(mean(s.deviation, kDistanceUnit));
-  // Points that fill the four columns evenly up to a straight border at distance b (at most 1) have their
-  // mean (1 - b) / 2 off the vertex.
-  vertex.support = static_cast<float>(1 - 2 * (centre - direction * centre.dot(direction)).norm());
+  vertex.support = support_of(centre, direction);
 }
 
 void DistanceField::find_case(FieldVertex& vertex) {

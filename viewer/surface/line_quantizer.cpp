@@ -78,7 +78,7 @@ __attribute__((target("avx2"))) PlacedBounds place_points_avx2(const LinePlaceme
                weight_scale = _mm256_set1_ps(placement.weight_scale);
   const __m256 half = _mm256_set1_ps(0.5f), one = _mm256_set1_ps(1.0f), zero = _mm256_setzero_ps();
   const __m256 most = _mm256_set1_ps(kMaxPointWeight), typical = _mm256_set1_ps(kTypicalWeight);
-  __m256i lowest = _mm256_set1_epi32(-1), highest = _mm256_setzero_si256(), kept = highest;
+  __m256i lowest = _mm256_set1_epi32(-1), highest = _mm256_setzero_si256(), refusals = highest;
   for (std::size_t i = 0; i < points.size(); i += 2) {
     const std::size_t next = i + 1 < points.size() ? i + 1 : i;
     const __m256 values = load_points(points[i], points[next]);
@@ -95,14 +95,14 @@ __attribute__((target("avx2"))) PlacedBounds place_points_avx2(const LinePlaceme
     const __m256i result = _mm256_andnot_si256(refused, all);
     lowest = _mm256_min_epu32(lowest, _mm256_or_si256(result, refused));
     highest = _mm256_max_epu32(highest, result);
-    kept = _mm256_sub_epi32(kept, refused);
+    refusals = _mm256_sub_epi32(refusals, refused);
     _mm_store_si128(reinterpret_cast<__m128i*>(placed + next), _mm256_extracti128_si256(result, 1));
     _mm_store_si128(reinterpret_cast<__m128i*>(placed + i), _mm256_castsi256_si128(result));
   }
   alignas(32) std::array<std::int32_t, 8> l, h, k;
   _mm256_store_si256(reinterpret_cast<__m256i*>(l.data()), lowest);
   _mm256_store_si256(reinterpret_cast<__m256i*>(h.data()), highest);
-  _mm256_store_si256(reinterpret_cast<__m256i*>(k.data()), kept);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(k.data()), refusals);
   PlacedBounds bounds = no_bounds();
   for (std::size_t i = 0; i < 3; ++i) {
     // All ones means that no point was kept in the lane.

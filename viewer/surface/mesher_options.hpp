@@ -41,7 +41,7 @@ struct MesherOptions {
   LocalFit fit = LocalFit::quadric;
   double typical_deviation =
       0.26;  ///< mm; expected standard deviation of a point, before the data say better
-  double typical_curvature = 0.15;  ///< 1/mm; curvature expected at most; holds the fit where data are thin
+  double typical_curvature = 0.05;  ///< 1/mm; curvature to expect; holds the fit back where data are thin
   int min_points = 24;              ///< points within one interval around a place for it to carry surface
   int min_lines = 2;                ///< ... and different lines among them
   double fill_holes_up_to =

@@ -27,9 +27,37 @@ std::uint64_t MomentGrid::add_line(const PlacedLine& line, const Eigen::Vector3d
       sums = {};
     }
   });
-  const auto towards = towards_camera(seen_from);
-  for (const LineCell& part : line_cells_) merge(part, towards);
+  const Eigen::Vector3d direction = towards_camera(seen_from);
+  for (const LineCell& part : line_cells_) merge(part, direction);
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  for (const LineCell& part : line_cells_) book_part(part, axis);
   return used;
+}
+
+// A column's part is booked by its lowest cube in the line: it collects the cubes above it. (The camera looks
+// along the columns of its dominant axis.)
+void MomentGrid::book_part(const LineCell& lowest, int axis) {
+  constexpr std::array<std::size_t, 3> kUp{14, 16, 22};  // neighbour slots one up along x, y, z
+  const std::size_t up = kUp[static_cast<std::size_t>(axis)], down = 26 - up;
+  const auto in_line = [this](std::int32_t number) {
+    return number != SparseIndex::kNone && cells_[number].line == line_ ? &cells_[number] : nullptr;
+  };
+  if (in_line(cells_[lowest.cell].near[down]) != nullptr) return;
+  std::array<std::int64_t, 4> part{};
+  std::int64_t most = 0, height = 0, height_of_most = 0;
+  MomentCell* holder = nullptr;
+  for (MomentCell* cell = &cells_[lowest.cell]; cell != nullptr; cell = in_line(cell->near[up]), ++height) {
+    const auto& first = line_cells_[static_cast<std::size_t>(cell->line_slot)].sums.first;
+    for (std::size_t i = 0; i < 4; ++i) part[i] += first[i];
+    part[static_cast<std::size_t>(axis)] += first[3] * height * kSteps;
+    if (first[3] <= most) continue;
+    most = first[3];
+    height_of_most = height;
+    holder = cell;
+  }
+  part[static_cast<std::size_t>(axis)] -= part[3] * height_of_most * kSteps;
+  holder->content.parts.add(part);
 }
 
 bool MomentGrid::add_to_line(GridIndex at, const MomentSums& sums) {
@@ -48,20 +76,17 @@ bool MomentGrid::add_to_line(GridIndex at, const MomentSums& sums) {
 
 // One direction for the whole line, from the middle of its cubes: it only has to tell one side from the
 // other.
-std::array<std::int32_t, 3> MomentGrid::towards_camera(const Eigen::Vector3d& seen_from) const {
+Eigen::Vector3d MomentGrid::towards_camera(const Eigen::Vector3d& seen_from) const {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const LineCell& part : line_cells_) {
     const GridIndex at = cells_[part.cell].at;
     middle += Eigen::Vector3d(at.x, at.y, at.z);
   }
-  if (line_cells_.empty()) return {};
-  middle = (middle / static_cast<double>(line_cells_.size())).array() + 0.5;
-  const Eigen::Vector3d direction = (seen_from / interval_ - middle).normalized() * 256;
-  return {static_cast<std::int32_t>(direction.x()), static_cast<std::int32_t>(direction.y()),
-          static_cast<std::int32_t>(direction.z())};
+  middle = (middle / std::max(1.0, static_cast<double>(line_cells_.size()))).array() + 0.5;
+  return (seen_from / interval_ - middle).normalized();
 }
 
-void MomentGrid::merge(const LineCell& part, const std::array<std::int32_t, 3>& towards) {
+void MomentGrid::merge(const LineCell& part, const Eigen::Vector3d& towards) {
   MomentCell& cell = cells_[part.cell];
   if (cell.sweep != sweep_) {
     journal_.back().emplace_back(part.cell, cell.content);
@@ -69,7 +94,10 @@ void MomentGrid::merge(const LineCell& part, const std::array<std::int32_t, 3>& 
     cell.sweep = sweep_;
   }
   if (!cell.occupied()) ++occupied_;
-  cell.content.add_line(part.sums, towards);
+  cell.content.sums.add(part.sums);
+  ++cell.content.lines;
+  for (std::size_t i = 0; i < 3; ++i)
+    cell.content.towards[i] += static_cast<std::int32_t>(256 * towards[static_cast<Eigen::Index>(i)]);
   flag_changed(part.cell);
 }
 

@@ -62,8 +62,9 @@ class MomentGrid {
   std::int32_t cell_at(GridIndex at);
   void link(const SparseIndex::Block& block, std::int32_t cell);
   bool add_to_line(GridIndex at, const MomentSums& sums);
-  std::array<std::int32_t, 3> towards_camera(const Eigen::Vector3d& seen_from) const;
-  void merge(const LineCell& part, const std::array<std::int32_t, 3>& towards);
+  Eigen::Vector3d towards_camera(const Eigen::Vector3d& seen_from) const;
+  void merge(const LineCell& part, const Eigen::Vector3d& towards);
+  void book_part(const LineCell& lowest, int axis);
   void flag_changed(std::int32_t cell);
 
   double interval_;

@@ -45,6 +45,9 @@ std::int32_t occupied_near(const MomentGrid& grid, const MomentCell& from, int a
 
 constexpr int kOwnColumn = 4;
 
+// Lent curvature is right within this share of the curvature to expect.
+constexpr double kLentShare = 0.25;
+
 }  // namespace
 
 PatchMap::PatchMap(const MesherOptions& options) {
@@ -52,7 +55,7 @@ PatchMap::PatchMap(const MesherOptions& options) {
   const double curvature = 0.5 * options.typical_curvature * options.interval;
   options_.fit = options.fit;
   options_.point_variance = deviation * deviation;
-  options_.curvature_variance = curvature * curvature;
+  curvature_variance_ = curvature * curvature;
   options_.min_points = options.min_points;
   options_.min_lines = options.min_lines;
 }
@@ -60,13 +63,22 @@ PatchMap::PatchMap(const MesherOptions& options) {
 void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   while (records_.size() < grid.cell_count()) records_.add();
   affected_.clear();
+  waiting_.clear();
   for (const std::int32_t cell : grid.changed())
     records_[cell].statistics = statistics_of(grid.cell(cell).content);
   collect_affected(grid);
-  for (const std::int32_t cell : affected_) {
+  for (const std::int32_t cell : affected_)
     for (int axis = 0; axis < 3; ++axis)
       if ((records_[cell].redo >> axis & 1) != 0) refit(grid, cell, axis, listener);
-    records_[cell].redo = 0;
+  // What borders on a patch that was looked at borrows from it.
+  for (const std::int32_t cell : affected_)
+    for (const std::int32_t other : grid.cell(cell).near)
+      if (other != kNone) let_wait(other, records_[other].border & records_[cell].redo);
+  for (const std::int32_t cell : affected_) records_[cell].redo = 0;
+  for (const std::int32_t cell : waiting_) {
+    for (int axis = 0; axis < 3; ++axis)
+      if ((records_[cell].wait >> axis & 1) != 0) refit_at_border(grid, cell, axis, listener);
+    records_[cell].wait = 0;
   }
 }
 
@@ -102,22 +114,67 @@ void PatchMap::visit(std::int32_t cell, unsigned axes) {
   record.redo = static_cast<std::uint8_t>(record.redo | axes);
 }
 
-void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, PatchListener& listener) {
-  Record& record = records_[number];
-  std::int32_t& held = record.patch[static_cast<std::size_t>(axis)];
-  if (held != kNone) {
-    listener.patch_removed(grid.cell(number), patches_[held]);
-    unused_patches_.push_back(held);
-    held = kNone;
-  }
-  const bool middle = grid.cell(number).occupied() && is_middle_of_column(grid, number, axis);
-  record.middle = static_cast<std::uint8_t>((record.middle & ~(1u << axis)) | (middle ? 1u : 0u) << axis);
-  if (!middle) return;
-  const auto found = fit(grid, number, axis);
-  if (!found) return;
+void PatchMap::let_wait(std::int32_t cell, unsigned axes) {
+  Record& record = records_[cell];
+  if (axes == 0) return;
+  if (record.wait == 0) waiting_.push_back(cell);
+  record.wait = static_cast<std::uint8_t>(record.wait | axes);
+}
+
+void PatchMap::drop(const MomentGrid& grid, std::int32_t number, int axis, PatchListener& listener) {
+  std::int32_t& held = records_[number].patch[static_cast<std::size_t>(axis)];
+  if (held == kNone) return;
+  listener.patch_removed(grid.cell(number), patches_[held]);
+  unused_patches_.push_back(held);
+  held = kNone;
+}
+
+void PatchMap::hold(const MomentGrid& grid, std::int32_t number, const std::optional<SurfacePatch>& patch,
+                    PatchListener& listener) {
+  if (!patch) return;
+  std::int32_t& held = records_[number].patch[static_cast<std::size_t>(patch->axis)];
   held = free_patch();
-  patches_[held] = *found;
-  listener.patch_added(grid.cell(number), *found);
+  patches_[held] = *patch;
+  listener.patch_added(grid.cell(number), *patch);
+}
+
+void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, PatchListener& listener) {
+  drop(grid, number, axis, listener);
+  Record& record = records_[number];
+  const unsigned bit = 1u << axis;
+  record.middle = static_cast<std::uint8_t>(record.middle & ~bit);
+  record.border = static_cast<std::uint8_t>(record.border & ~bit);
+  if (!grid.cell(number).occupied() || !is_middle_of_column(grid, number, axis)) return;
+  record.middle = static_cast<std::uint8_t>(record.middle | bit);
+  const PatchInput input = input_of(grid, number, axis);
+  if (has_all_columns(input))
+    return hold(grid, number, fit_patch(input, {{}, curvature_variance_}, options_), listener);
+  record.border = static_cast<std::uint8_t>(record.border | bit);
+  let_wait(number, bit);
+}
+
+void PatchMap::refit_at_border(const MomentGrid& grid, std::int32_t number, int axis,
+                               PatchListener& listener) {
+  drop(grid, number, axis, listener);
+  hold(grid, number, fit_patch(input_of(grid, number, axis), lent_curvature(grid, number, axis), options_),
+       listener);
+}
+
+// At a border the columns cannot tell slope from curvature: it is taken from the complete patches next to it.
+CurvaturePrior PatchMap::lent_curvature(const MomentGrid& grid, std::int32_t number, int axis) const {
+  CurvaturePrior prior{{}, curvature_variance_};
+  double lenders = 0;
+  for (const std::int32_t other : grid.cell(number).near) {
+    if (other == kNone || (records_[other].border >> axis & 1) != 0) continue;
+    const std::int32_t patch = records_[other].patch[static_cast<std::size_t>(axis)];
+    if (patch == kNone) continue;
+    for (std::size_t i = 0; i < 3; ++i) prior.mean[i] += patches_[patch].curvature[i];
+    ++lenders;
+  }
+  if (lenders == 0) return prior;
+  for (double& mean : prior.mean) mean /= lenders;
+  prior.variance *= kLentShare * kLentShare;
+  return prior;
 }
 
 std::int32_t PatchMap::free_patch() {
@@ -168,12 +225,12 @@ void PatchMap::gather_column(const MomentGrid& grid, std::int32_t middle, int ax
   }
 }
 
-std::optional<SurfacePatch> PatchMap::fit(const MomentGrid& grid, std::int32_t number, int axis) const {
+PatchInput PatchMap::input_of(const MomentGrid& grid, std::int32_t number, int axis) const {
   PatchInput input;
   input.axis = axis;
   for (int i = 0; i < 9; ++i)
     gather_column(grid, number, axis, i, input.columns[static_cast<std::size_t>(i)]);
-  return fit_patch(input, options_);
+  return input;
 }
 
 bool PatchMap::carries_surface(const MomentGrid& grid, std::int32_t number) const {

@@ -42,24 +42,34 @@ class PatchMap {
     CellStatistics statistics;
     std::array<std::int32_t, 3> patch{kNone, kNone, kNone};  ///< per axis: number in patches_
     std::uint8_t middle =
-        0;                  ///< bit a: the cube was the middle of its column along axis a when last looked at
-    std::uint8_t redo = 0;  ///< bit a: the patch along axis a has to be looked at
+        0;  ///< bit a: the cube was the middle of its column along axis a when last looked at
+    std::uint8_t border = 0;  ///< bit a: it was, and some of the columns around were thin
+    std::uint8_t redo = 0;    ///< bit a: the patch along axis a has to be looked at
+    std::uint8_t wait = 0;    ///< bit a: the same, after all that are not at a border
   };
 
   void collect_affected(const MomentGrid& grid);
   void collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction);
   void visit(std::int32_t cell, unsigned axes);
+  void drop(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
   void refit(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
-  std::optional<SurfacePatch> fit(const MomentGrid& grid, std::int32_t cell, int axis) const;
+  void refit_at_border(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
+  void hold(const MomentGrid& grid, std::int32_t cell, const std::optional<SurfacePatch>& patch,
+            PatchListener& listener);
+  void let_wait(std::int32_t cell, unsigned axes);
+  CurvaturePrior lent_curvature(const MomentGrid& grid, std::int32_t cell, int axis) const;
+  PatchInput input_of(const MomentGrid& grid, std::int32_t cell, int axis) const;
   bool is_middle_of_column(const MomentGrid& grid, std::int32_t cell, int axis) const;
   void gather_column(const MomentGrid& grid, std::int32_t middle, int axis, int i, PatchColumn& column) const;
   std::int32_t free_patch();
 
   PatchOptions options_;
+  double curvature_variance_;    // expected of d and f, intervals^-2
   ChunkedPool<Record> records_;  // by number of cube
   ChunkedPool<SurfacePatch> patches_;
   std::vector<std::int32_t> unused_patches_;
   std::vector<std::int32_t> affected_;
+  std::vector<std::int32_t> waiting_;
 };
 
 }  // namespace linescope

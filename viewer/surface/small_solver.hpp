@@ -18,8 +18,12 @@ class SmallSystem {
     }
   }
 
-  void add_to_diagonal(const double* values) {
-    for (std::size_t i = 0; i < kSize; ++i) matrix_[i][i] += values[i];
+  /// Every unknown equals a mean, with a weight.
+  void add_prior(const double* means, const double* weights) {
+    for (std::size_t i = 0; i < kSize; ++i) {
+      matrix_[i][i] += weights[i];
+      right_[i] += weights[i] * means[i];
+    }
   }
 
   /// Afterwards matrix_ holds L below and D on the diagonal. The matrix must be positive definite.

@@ -9,16 +9,24 @@
 namespace linescope {
 namespace {
 
-constexpr double kMinAxisShare = 0.5;  // |normal along h| below this: another axis serves better
-constexpr double kSteepest = 0.45;     // |normal along h| of the fit below this: it ran away
-constexpr double kMinSpread =
-    0.15;  // intervals; the points' standard deviation across their narrowest direction
-constexpr double kMinColumnShare =
-    0.02;  // of the best column: fewer points than that in the middle are wild, not border
+// Component of the normal along h, from all points, below which another axis serves (less than 1/sqrt(3)).
+constexpr double kMinAxisShare = 0.55;
+// The same, of the fit: below this it ran away.
+constexpr double kSteepest = 0.45;
+// Standard deviation of the points across their narrowest direction: in intervals, and in deviations of a
+// point, because a ribbon of noise is no surface.
+constexpr double kMinSpread = 0.15;
+constexpr double kMinSpreadSigmas = 1.5;
+// Cosine between normal and view: nothing is seen edge-on.
+constexpr double kMinFacing = 0.15;
+// Points in the middle column, absolute and of the best column: fewer are wild points, not border.
 constexpr double kMinColumnPoints = 3;
+constexpr double kMinColumnShare = 0.02;
+// Points in every column, of the fullest, for the patch to show its curvature by itself.
+constexpr double kFairShare = 0.2;
+// A cube whose mean lies farther off the fit is wild; the deviation is at least so many intervals.
 constexpr double kOutlierSigmas = 4.0;
-constexpr double kLeastDeviation =
-    0.1;  // intervals; a cube nearer to the fit than four of these is never wild
+constexpr double kLeastDeviation = 0.1;
 
 // Position of a covariance entry (i, j) in xx xy xz yy yz zz.
 constexpr std::array<std::array<std::size_t, 3>, 3> kEntry{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
@@ -152,7 +160,9 @@ bool enough(const Window& window, const PatchOptions& options) {
   const Column& middle = window.columns[4];
   return window.points >= options.min_points && window.lines >= options.min_lines &&
          middle.points >= std::max(kMinColumnPoints, kMinColumnShare * window.best_column) &&
-         window.spread >= kMinSpread * kMinSpread && window.axis_share >= kMinAxisShare * kMinAxisShare;
+         window.spread >= std::max(kMinSpread * kMinSpread,
+                                   kMinSpreadSigmas * kMinSpreadSigmas * options.point_variance) &&
+         window.axis_share >= kMinAxisShare * kMinAxisShare;
 }
 
 struct Solution {
@@ -161,7 +171,7 @@ struct Solution {
 };
 
 template <int N>
-Solution solve(const Window& window, const PatchOptions& options) {
+Solution solve(const Window& window, const CurvaturePrior& prior, const PatchOptions& options) {
   SmallSystem<N> system;
   for (const Column& c : window.columns) {
     if (c.empty()) continue;
@@ -169,13 +179,10 @@ Solution solve(const Window& window, const PatchOptions& options) {
     system.add(row, c.h, c.w);
   }
   const double unit_variance = options.point_variance * kTypicalWeight;
-  const double prior[6] = {0,
-                           unit_variance,
-                           unit_variance,
-                           unit_variance / options.curvature_variance,
-                           unit_variance / (4 * options.curvature_variance),
-                           unit_variance / options.curvature_variance};
-  system.add_to_diagonal(prior);
+  const double bend = unit_variance / prior.variance;
+  const double weights[6] = {0, unit_variance, unit_variance, bend, bend / 4, bend};
+  const double means[6] = {0, 0, 0, prior.mean[0], prior.mean[1], prior.mean[2]};
+  system.add_prior(means, weights);
   system.factorise();
   Solution result;
   const auto k = system.solve();
@@ -184,8 +191,8 @@ Solution solve(const Window& window, const PatchOptions& options) {
   return result;
 }
 
-Solution solve(const Window& window, const PatchOptions& options) {
-  return options.fit == LocalFit::plane ? solve<3>(window, options) : solve<6>(window, options);
+Solution solve(const Window& window, const CurvaturePrior& prior, const PatchOptions& options) {
+  return options.fit == LocalFit::plane ? solve<3>(window, prior, options) : solve<6>(window, prior, options);
 }
 
 // Variance of a point's height about the surface, from within the columns: what is common to a column does
@@ -223,34 +230,52 @@ bool find_wild_cells(const PatchInput& input, const Axes& ax, const Coefficients
   return any;
 }
 
+// Of the lines' parts in a column: weighted sum of the squares of their distances from their mean, across the
+// surface.
+double parts_apart(const PatchColumn& column, const Axes& ax, const Normal2& slope, double& freedom) {
+  double count = 0, weight = 0, sum = 0, squares = 0;
+  for (int c = 0; c < column.count; ++c) {
+    const NearCell& cell = column.cells[static_cast<std::size_t>(c)];
+    const CellStatistics& s = *cell.statistics;
+    const auto& m = s.parts_squares;
+    // Height above the sloping plane through the middle cube's corner, of a mean p: p_h - slope p_u - slope
+    // p_v + offset.
+    const double offset = cell.offset[ax.h] - slope.u * cell.offset[ax.u] - slope.v * cell.offset[ax.v];
+    const double first = s.parts_sum[ax.h] - slope.u * s.parts_sum[ax.u] - slope.v * s.parts_sum[ax.v];
+    const double second = m[kEntry[ax.h][ax.h]] - 2 * slope.u * m[kEntry[ax.u][ax.h]] -
+                          2 * slope.v * m[kEntry[ax.v][ax.h]] + slope.u * slope.u * m[kEntry[ax.u][ax.u]] +
+                          2 * slope.u * slope.v * m[kEntry[ax.u][ax.v]] +
+                          slope.v * slope.v * m[kEntry[ax.v][ax.v]];
+    count += s.parts;
+    weight += s.parts_weight;
+    sum += first + offset * s.parts_weight;
+    squares += second + 2 * offset * first + offset * offset * s.parts_weight;
+  }
+  if (count < 2) return 0;
+  freedom += count - 1;
+  return squares - sum * sum / weight;
+}
+
 // How many times more the mean of a window scatters than if all its points erred by themselves: points of one
-// line share the line's error. Lines are compared within cubes; a line crosses up to three columns of the
-// window.
+// line share the line's error. A line crosses up to three columns of the window.
 double line_factor(const PatchInput& input, const Axes& ax, const Normal2& slope, double variance,
                    double mean_weight) {
   double apart = 0, freedom = 0;
-  for (const PatchColumn& column : input.columns)
-    for (int c = 0; c < column.count; ++c) {
-      const CellStatistics& s = *column.cells[static_cast<std::size_t>(c)].statistics;
-      if (s.lines < 2) continue;
-      const auto& m = s.lines_apart;
-      apart += m[kEntry[ax.h][ax.h]] - 2 * slope.u * m[kEntry[ax.u][ax.h]] -
-               2 * slope.v * m[kEntry[ax.v][ax.h]] + slope.u * slope.u * m[kEntry[ax.u][ax.u]] +
-               2 * slope.u * slope.v * m[kEntry[ax.u][ax.v]] + slope.v * slope.v * m[kEntry[ax.v][ax.v]];
-      freedom += s.lines - 1;
-    }
+  for (const PatchColumn& column : input.columns) apart += parts_apart(column, ax, slope, freedom);
   if (freedom == 0 || !(variance > 0)) return 1;
   return 1 + 3 * std::max(0.0, apart / (freedom * variance * mean_weight) - 1);
 }
 
-double seen_along(const PatchInput& input, const std::array<double, 3>& normal) {
-  double sum = 0;
+// Mean cosine between the normal and the directions to the camera.
+double facing(const PatchInput& input, const std::array<double, 3>& normal) {
+  double sum = 0, lines = 0;
   for (const PatchColumn& column : input.columns)
     for (int c = 0; c < column.count; ++c) {
-      const auto& towards = column.cells[static_cast<std::size_t>(c)].statistics->towards;
-      sum += towards[0] * normal[0] + towards[1] * normal[1] + towards[2] * normal[2];
+      const CellStatistics& s = *column.cells[static_cast<std::size_t>(c)].statistics;
+      sum += s.towards[0] * normal[0] + s.towards[1] * normal[1] + s.towards[2] * normal[2];
+      lines += s.lines;
     }
-  return sum;
+  return sum / lines;
 }
 
 // Noise along the normal of a curved surface lets points on its hollow side lie closer together, and along a
@@ -266,8 +291,8 @@ double noise_shift(const Coefficients& k, const Normal2& slope, double variance)
   return -normal_variance * (twice_mean + 1.5 * steepest) / squared;
 }
 
-SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& window, const Solution& found,
-                        double variance) {
+std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, const Window& window,
+                                       const Solution& found, double variance) {
   SurfacePatch patch;
   patch.axis = input.axis;
   for (std::size_t corner = 0; corner < 4; ++corner)
@@ -279,11 +304,14 @@ SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& w
   patch.normal[ax.u] = -slope.u * along;
   patch.normal[ax.v] = -slope.v * along;
   patch.normal[ax.h] = along;
-  if (seen_along(input, patch.normal) < 0)
+  const double seen = facing(input, patch.normal);
+  if (std::abs(seen) < kMinFacing) return std::nullopt;
+  if (seen < 0)
     for (double& n : patch.normal) n = -n;
   const Column& middle = window.columns[4];
   patch.weight = middle.w;
   patch.points = middle.points;
+  patch.curvature = {found.k[3], found.k[4], found.k[5]};
   patch.centre[ax.u] = middle.u + 0.5;
   patch.centre[ax.v] = middle.v + 0.5;
   patch.centre[ax.h] = middle.h;
@@ -295,17 +323,27 @@ SurfacePatch patch_from(const PatchInput& input, const Axes& ax, const Window& w
 
 }  // namespace
 
-std::optional<SurfacePatch> fit_patch(const PatchInput& input, const PatchOptions& options) {
+bool has_all_columns(const PatchInput& input) {
+  std::array<double, 9> points{};
+  for (std::size_t i = 0; i < 9; ++i)
+    for (int c = 0; c < input.columns[i].count; ++c)
+      points[i] += input.columns[i].cells[static_cast<std::size_t>(c)].statistics->points;
+  const auto [least, most] = std::minmax_element(points.begin(), points.end());
+  return *least >= kFairShare * *most;
+}
+
+std::optional<SurfacePatch> fit_patch(const PatchInput& input, const CurvaturePrior& prior,
+                                      const PatchOptions& options) {
   const Axes ax(input.axis);
   Excluded excluded{};
   Window window = window_of(input, ax, excluded);
   if (!enough(window, options)) return std::nullopt;
-  Solution found = solve(window, options);
+  Solution found = solve(window, prior, options);
   double variance = point_variance(window, found.k, options.point_variance);
   for (int round = 0; round < 2 && find_wild_cells(input, ax, found.k, variance, excluded); ++round) {
     window = window_of(input, ax, excluded);
     if (!enough(window, options)) return std::nullopt;
-    found = solve(window, options);
+    found = solve(window, prior, options);
     variance = point_variance(window, found.k, options.point_variance);
   }
   if (slopes_at(found.k, 0, 0).along_h() < kSteepest) return std::nullopt;

@@ -38,10 +38,15 @@ struct PatchInput {
   std::array<PatchColumn, 9> columns;  ///< (u, v) from (-1, -1), u running fastest; 4 is the middle
 };
 
+/// What is believed about d, e, f before the columns are looked at.
+struct CurvaturePrior {
+  std::array<double, 3> mean{};
+  double variance = 0;  ///< of d and f, intervals^-2; e has four times as much
+};
+
 struct PatchOptions {
   LocalFit fit = LocalFit::quadric;
-  double point_variance = 0;      ///< of a point with the typical weight, intervals^2
-  double curvature_variance = 0;  ///< expected of d and f, intervals^-2
+  double point_variance = 0;  ///< of a point with the typical weight, intervals^2
   double min_points = 24;
   double min_lines = 2;
 };
@@ -51,15 +56,20 @@ struct PatchOptions {
 struct SurfacePatch {
   int axis = 2;
   std::array<double, 4> height{};
-  std::array<double, 3> normal{};  ///< unit, x y z, to the side it was seen from
-  double deviation = 0;            ///< one standard deviation of the height along the normal
-  double weight = 0;               ///< of the middle column
-  double points = 0;               ///< in the middle column
-  std::array<double, 3> centre{};  ///< mean of the middle column, x y z
+  std::array<double, 3> normal{};     ///< unit, x y z, to the side it was seen from
+  double deviation = 0;               ///< one standard deviation of the height along the normal
+  double weight = 0;                  ///< of the middle column
+  double points = 0;                  ///< in the middle column
+  std::array<double, 3> centre{};     ///< mean of the middle column, x y z
+  std::array<double, 3> curvature{};  ///< d, e, f
 };
 
 /// Nothing when there are too few points or lines, when they lie along a line, or when the axis turns out to
 /// be wrong.
-std::optional<SurfacePatch> fit_patch(const PatchInput& input, const PatchOptions& options);
+std::optional<SurfacePatch> fit_patch(const PatchInput& input, const CurvaturePrior& prior,
+                                      const PatchOptions& options);
+
+/// True when every column has a fair share of points: the patch then shows its curvature by itself.
+bool has_all_columns(const PatchInput& input);
 
 }  // namespace linescope

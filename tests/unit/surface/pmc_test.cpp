@@ -9,8 +9,8 @@
 #include "tests/unit/surface/mesh_topology.hpp"
 #include "tests/unit/surface/surface_phantom.hpp"
 #include "tests/unit/surface/vtk_cubes.hpp"
+#include "viewer/surface/block_table.hpp"
 #include "viewer/surface/mesher.hpp"
-#include "viewer/surface/vertex_grid.hpp"
 
 namespace linescope {
 namespace {
@@ -113,18 +113,26 @@ TEST(Pmc, EqualsVtkOnTheCondyle) {
 }
 
 TEST(Pmc, MarksTheGridVertexNearestToThePoint) {
-  // Eq-free statement of 4.3.2 (1): beyond the midpoint of an interval the upper grid plane wins, on every
-  // axis by itself.
-  EXPECT_EQ(nearest_vertex(0.63f, 1 / 1.27), 0);
-  EXPECT_EQ(nearest_vertex(0.64f, 1 / 1.27), 1);
-  EXPECT_EQ(nearest_vertex(-0.63f, 1 / 1.27), 0);
-  EXPECT_EQ(nearest_vertex(-0.64f, 1 / 1.27), -1);
+  // 4.3.2 (1): beyond the midpoint of an interval (0.635 mm) the upper grid plane wins, on every axis by
+  // itself.
   auto mesher = pmc();
   const std::vector<SurfacePoint> points{{{0.6f, 0.7f, -0.7f}, 0, 0}};
   mesher->add_line({.points = points});
   const auto vertices = mesher->grid_vertices();
   ASSERT_EQ(vertices.size(), 1u);
   EXPECT_TRUE(vertices[0].isApprox(Eigen::Vector3f(0, 1.27f, -1.27f), 1e-6f));
+}
+
+TEST(Pmc, TheMidpointIsKeptToAThousandthOfAMillimetre) {
+  for (const float side : {-1.0f, 1.0f})
+    for (int plane = -5; plane < 5; ++plane) {
+      auto mesher = pmc();
+      const float midpoint = 1.27f * (static_cast<float>(plane) + 0.5f);
+      const std::vector<SurfacePoint> points{{{midpoint + side * 0.001f, 0, 0}, 0, 0}};
+      mesher->add_line({.points = points, .seen_from = {3, 4, 5}});
+      const float expected = 1.27f * static_cast<float>(side > 0 ? plane + 1 : plane);
+      EXPECT_NEAR(mesher->grid_vertices().at(0).x(), expected, 1e-4f) << plane << " " << side;
+    }
 }
 
 TEST(Pmc, ALonePointIsAnOctahedronWithNormalsOutwards) {
