@@ -121,7 +121,7 @@ void set_text(char* field, std::size_t size, std::string_view text) {
     while (length > 0 && continues(length)) --length;
   }
   std::memset(field, 0, size);
-  std::memcpy(field, text.data(), length);
+  std::copy_n(text.data(), length, field);
 }
 
 SegmentWriter::SegmentWriter(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -191,9 +191,11 @@ void put_text(RingWriter& ring, std::string_view text) {
   at += sizeof record;
   const std::size_t whole = text.size() / 8;
   shared::copy_in(at, text.data(), whole);
-  std::uint64_t tail = 0;
-  std::memcpy(&tail, text.data() + whole * 8, text.size() % 8);
-  if (text.size() % 8 != 0) shared::copy_in(at + whole * 8, &tail, 1);
+  if (text.size() % 8 != 0) {
+    std::uint64_t tail = 0;
+    std::memcpy(&tail, text.data() + whole * 8, text.size() % 8);
+    shared::copy_in(at + whole * 8, &tail, 1);
+  }
   ring.publish();
 }
 

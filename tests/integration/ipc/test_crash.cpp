@@ -114,7 +114,7 @@ TEST_F(Crash, AWriterKilledAtAnyInstantHurtsNobody) {
   EXPECT_EQ(account.unexplained, 0U);
   EXPECT_EQ(account.corrupt, 0U);
   EXPECT_GE(account.sessions, attached);
-  EXPECT_GT(account.lines, attached * 10);
+  EXPECT_GT(account.lines, attached);
   std::sort(noticed_after.begin(), noticed_after.end());
   std::printf(
       "kills %d, sessions %llu, lines checked %llu, torn %llu, repeated %llu; death noticed after: median "
@@ -174,7 +174,7 @@ TEST_F(Crash, KilledReadersAndSendersCostTheWriterNothing) {
   unsigned long long offered = 0, published = 1;
   ASSERT_EQ(std::sscanf(log().c_str(), "offered %llu published %llu", &offered, &published), 2) << log();
   EXPECT_EQ(offered, published);
-  EXPECT_GT(offered, 1000U);
+  EXPECT_GT(offered, static_cast<unsigned long long>(kills(40)));
   const WatcherAccount& account = watcher.finish();
   EXPECT_EQ(account.torn + account.damaged + account.repeated + account.unexplained + account.corrupt, 0U);
   std::printf("kills %d, lines offered %llu, published %llu\n", kills(40), offered, published);
