@@ -83,13 +83,18 @@ double cone_95(const TiltError& error) {
     for (const double q : inverse) sum += std::pow(1 + angle * angle * q, -n / 2);
     return sum / static_cast<double>(inverse.size());
   };
-  // P(radius > k) = (1 + k^2 / n)^(-n/2) along each direction: the answer lies between the two main axes'
-  // own.
+  // P(radius > k) = (1 + k^2 / n)^(-n/2) along each direction: the answer lies between half and all of the
+  // longer axis' own. False position on the logarithm, which is nearly straight.
   const double k = std::sqrt(n * (std::pow(0.05, -2 / n) - 1));
+  const auto excess = [&](double angle) { return std::log(outside(angle) / 0.05); };
   double low = 0.5 * k * ellipse.half_axes[1], high = k * ellipse.half_axes[1];
-  for (int i = 0; i < 24; ++i) {
-    const double middle = (low + high) / 2;
-    (outside(middle) > 0.05 ? low : high) = middle;
+  double at_low = excess(low), at_high = excess(high);
+  for (int i = 0; i < 12 && high - low > 1e-4 * high && at_low > 0 && at_high < 0; ++i) {
+    const double middle = low + (high - low) * at_low / (at_low - at_high);
+    const double there = excess(middle);
+    if (std::abs(there) < 1e-4) return middle;
+    (there > 0 ? low : high) = middle;
+    (there > 0 ? at_low : at_high) = there;
   }
   return high;
 }

@@ -8,11 +8,9 @@
 namespace linescope {
 namespace {
 
-using Row = LineGroup::Row;
-
 /// Mean over a segment of the ten features, exact for points spread evenly about the mean along a straight
 /// piece.
-Row row_of(const Patch& patch, const Quadric& quadric, std::size_t i) {
+FitRow row_of(const Patch& patch, const Quadric& quadric, std::size_t i) {
   const double a = static_cast<double>(patch.sx[i]), b = static_cast<double>(patch.sy[i]);
   double x = static_cast<double>(patch.x[i]), y = static_cast<double>(patch.y[i]);
   const auto fitted = [&] {
@@ -24,23 +22,29 @@ Row row_of(const Patch& patch, const Quadric& quadric, std::size_t i) {
   const Eigen::Vector2f& shear = patch.lines[patch.line[i]].shear;
   x -= error * static_cast<double>(shear.x());
   y -= error * static_cast<double>(shear.y());
-  Row row;
+  FitRow row;
   row << 1, x, y, x * x + a * a, x * y + a * b, y * y + b * b, x * (x * x + 3 * a * a),
       x * (x * y + 2 * a * b) + y * a * a, y * (x * y + 2 * a * b) + x * b * b, y * (y * y + 3 * b * b),
-      fitted() + error;
+      fitted() + error, 0;
   return row;
 }
 
 /// Weighted sums of one line.
 struct LineSums {
-  double weight = 0;
-  double along = 0;
-  double along_squared = 0;
-  Row rows = Row::Zero();
-  Row rows_along = Row::Zero();
-  int segments = 0;
+  double weight;
+  double along;
+  double along_squared;
+  FitRow rows;
+  FitRow rows_along;
+  int segments;
 
-  void add(const Row& row, double w, double s) {
+  void clear() {
+    weight = along = along_squared = 0;
+    rows.setZero();
+    rows_along.setZero();
+    segments = 0;
+  }
+  void add(const FitRow& row, double w, double s) {
     weight += w;
     along += w * s;
     along_squared += w * s * s;
@@ -49,6 +53,27 @@ struct LineSums {
     ++segments;
   }
   double spread() const { return along_squared - along * along / weight; }
+};
+
+/// Rows collected and summed many at a time.
+class RowBatch {
+ public:
+  explicit RowBatch(RowSums& sums) : sums_(sums) {}
+  void add(const FitRow& row, double weight) {
+    rows_[size_] = row;
+    weights_[size_] = weight;
+    if (++size_ == rows_.size()) flush();
+  }
+  void flush() {
+    add_rows(rows_.data(), weights_.data(), size_, sums_);
+    size_ = 0;
+  }
+
+ private:
+  RowSums& sums_;
+  std::array<FitRow, 64> rows_;
+  std::array<double, 64> weights_;
+  std::size_t size_ = 0;
 };
 
 /// Places of a patch's lines, by time.
@@ -86,12 +111,14 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
   std::array<Eigen::Vector2d, Patch::kMostLines> directions;
   for (std::size_t i = 0; i < line_count; ++i) directions[by_time[i]] = smoothed_direction(patch, by_time, i);
 
+  RowBatch batch(within);
   std::array<LineSums, Patch::kMostLines> sums;
+  for (std::size_t l = 0; l < line_count; ++l) sums[l].clear();
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
     if (!(patch.weight[i] > 0)) continue;
     const double w = 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor);
-    const Row row = row_of(patch, quadric, i);
-    within.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
+    const FitRow row = row_of(patch, quadric, i);
+    batch.add(row, w);
     sums[patch.line[i]].add(row, w, directions[patch.line[i]].dot(row.segment<2>(1)));
   }
   for (const std::uint16_t l : by_time) {
@@ -101,26 +128,28 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
     line.time = patch.lines[l].time;
     line.offset_row = sum.rows / sum.weight;
     line.offset_variance = 1 / sum.weight;
-    within.selfadjointView<Eigen::Lower>().rankUpdate(line.offset_row, -sum.weight);
+    line.tilt_variance = 0;
+    batch.add(line.offset_row, -sum.weight);
     within_freedom += sum.segments - 1;
     const double spread = sum.spread();
     if (sum.segments < 2 || !(spread > 0.01 * sum.weight)) continue;
     line.tilt_row = (sum.rows_along - sum.along * line.offset_row) / spread;
     line.tilt_variance = 1 / spread;
-    within.selfadjointView<Eigen::Lower>().rankUpdate(line.tilt_row, -spread);
+    batch.add(line.tilt_row, -spread);
     within_freedom -= 1;
     line.tilt_row.segment<2>(1) = directions[l];
   }
+  batch.flush();
   forget_slopes_within();
 }
 
 /// Within a line, less its offset and its slope, x and y vary by noise only: no information about the
 /// surface's slope. Taken as two free slopes of the lines' own and eliminated.
 void LineGroups::forget_slopes_within() {
-  Eigen::Matrix<double, 11, 11> full = within.selfadjointView<Eigen::Lower>();
+  RowSums full = within.selfadjointView<Eigen::Lower>();
   Eigen::Matrix2d slopes = full.block<2, 2>(1, 1);
   slopes.diagonal().array() += 1e-9 * full.trace() + 1e-300;
-  const Eigen::Matrix<double, 2, 11> across = full.middleRows<2>(1);
+  const Eigen::Matrix<double, 2, 12> across = full.middleRows<2>(1);
   full -= across.transpose() * slopes.inverse() * across;
   full.topRows<3>().setZero();
   full.leftCols<3>().setZero();
@@ -128,9 +157,7 @@ void LineGroups::forget_slopes_within() {
 }
 
 void LineGroups::scale_to(const Eigen::Matrix<double, 10, 1>& surface) {
-  Row residual;
-  residual << -surface, 1;
-  const double squares = residual.dot(within.selfadjointView<Eigen::Lower>() * residual);
+  const double squares = squares_about(within, surface);
   const double factor = std::max(0.05, (1 + std::max(0.0, squares)) / (1 + within_freedom));
   for (int i = 0; i < size; ++i) {
     lines[static_cast<std::size_t>(i)].offset_variance *= factor / segment_factor;

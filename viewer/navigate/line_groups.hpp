@@ -7,17 +7,17 @@
 
 #include "viewer/navigate/patch.hpp"
 #include "viewer/navigate/robust_quadric.hpp"
+#include "viewer/navigate/row_sums.hpp"
 
 namespace linescope {
 
 /// Rows are the ten averaged features of Cubic, then the measured value.
 struct LineGroup {
-  using Row = Eigen::Matrix<double, 11, 1>;
-  Nanoseconds time = 0;
-  Row offset_row = Row::Zero();  ///< means over the line
-  Row tilt_row = Row::Zero();    ///< slopes along the line
-  double offset_variance = 0;    ///< of the mean height by the segments' own errors, mm^2
-  double tilt_variance = 0;      ///< of the slope, 1; 0: the line is too short here to have one
+  Nanoseconds time;
+  FitRow offset_row;       ///< means over the line
+  FitRow tilt_row;         ///< slopes along the line; meaningless where tilt_variance is 0
+  double offset_variance;  ///< of the mean height by the segments' own errors, mm^2
+  double tilt_variance;    ///< of the slope, 1; 0: the line is too short here to have one
 };
 
 struct LineGroups {
@@ -34,9 +34,8 @@ struct LineGroups {
 
   int size = 0;
   std::array<LineGroup, Patch::kMostLines> lines;  ///< by time
-  /// What is left within the lines: sums of row row^T, lower triangle.
-  Eigen::Matrix<double, 11, 11> within = Eigen::Matrix<double, 11, 11>::Zero();
-  double within_freedom = 0;  ///< segments less what offsets and tilts took
+  RowSums within = RowSums::Zero();  ///< what is left within the lines, segments weighted as promised
+  double within_freedom = 0;         ///< segments less what offsets and tilts took
   double segment_factor =
       1;  ///< variance of segments within lines over what their points' deviations promise
 

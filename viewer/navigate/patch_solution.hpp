@@ -17,7 +17,7 @@ namespace linescope {
 
 struct SolutionOptions {
   double segment_floor = 0.005;  ///< error of a segment whatever its points say, mm
-  double line_prior = 0.02;      ///< expected offset of a line, mm; weighs as much as `prior_lines` lines
+  double line_prior = 0.01;      ///< expected offset of a line, mm; weighs as much as `prior_lines` lines
   double prior_lines = 1.0;
   double tilt_prior = 0.003;  ///< expected tilt of a line, rad; weighs as much as `prior_lines` lines
   double drift = 0.03;      ///< of the tracker, standard deviation, mm: what is slower than a sweep cannot be

@@ -10,6 +10,7 @@ namespace linescope {
 struct RobustOptions {
   double cut = 3.2;  ///< a segment farther from the surface than this many robust deviations is not used
   double smallest_scale = 0.03;  ///< the robust deviation is taken as at least this, mm
+  bool allow_simd = true;        ///< false: the portable loops, for comparison
   double usual_curvature =
       0.05;  ///< holds the fit back while it is still small: stronger curvature needs evidence, 1/mm
 };

@@ -20,11 +20,11 @@ class Ring {
   /// points).
   void add(float x, float y, float sx, float sy) {
     constexpr float kEnd = 1.7320508f;
-    for (const float side : {-kEnd, -0.5f * kEnd, 0.0f, 0.5f * kEnd, kEnd}) add(x + side * sx, y + side * sy);
-    nearest_ = std::min(nearest_, distance(x, y, kEnd * sx, kEnd * sy));
+    for (const float side : {-kEnd, 0.0f, kEnd}) add(x + side * sx, y + side * sy);
+    nearest_ = std::min(nearest_, squared_distance(x, y, kEnd * sx, kEnd * sy));
   }
 
-  double nearest() const { return static_cast<double>(nearest_); }
+  double nearest() const { return std::sqrt(static_cast<double>(nearest_)); }
 
   double widest_empty() const {
     if (taken_.none()) return 2 * std::numbers::pi;
@@ -47,10 +47,11 @@ class Ring {
   }
 
   /// From the origin to a piece of a line with the given middle and half length.
-  static float distance(float x, float y, float hx, float hy) {
+  static float squared_distance(float x, float y, float hx, float hy) {
     const float squared = hx * hx + hy * hy;
     const float t = squared > 0 ? std::clamp(-(x * hx + y * hy) / squared, -1.0f, 1.0f) : 0.0f;
-    return std::hypot(x + t * hx, y + t * hy);
+    const float px = x + t * hx, py = y + t * hy;
+    return px * px + py * py;
   }
 
   float squared_;
