@@ -35,17 +35,8 @@ std::vector<UsbFinding> of_kind(const std::vector<UsbFinding>& all, UsbProduct::
 
 tl::unexpected<Error> nothing_usable(const std::vector<UsbFinding>& all) {
   if (const auto loaders = of_kind(all, UsbProduct::Kind::loader); !loaders.empty())
-    return fail(
-        ErrorCode::not_found,
-        fmt::format("LIBERTY: the unit on {} waits for its firmware; install fxload and Polhemus' firmware "
-                    "files as docs/liberty.md says, then plug it in again",
-                    describe(loaders.front())));
-  if (!all.empty()) {
-    const UsbProduct* product = find_usb_product(all.front().id);
-    return fail(ErrorCode::unsupported,
-                fmt::format("LIBERTY: {} is a {}, which is another product", describe(all.front()),
-                            product ? product->name : "Polhemus device"));
-  }
+    return tl::unexpected(usb_product_error(loaders.front()));
+  if (!all.empty()) return tl::unexpected(usb_product_error(all.front()));
   return fail(ErrorCode::not_found, "LIBERTY: there is none on USB (0f44:ff20); switch it on and plug it in");
 }
 
@@ -53,6 +44,20 @@ tl::unexpected<Error> nothing_usable(const std::vector<UsbFinding>& all) {
 
 std::string describe(const UsbFinding& finding) {
   return fmt::format("USB {} ({:04x}:{:04x})", finding.path, kPolhemusVendor, finding.id);
+}
+
+Error usb_product_error(const UsbFinding& finding) {
+  const UsbProduct* product = find_usb_product(finding.id);
+  if (product != nullptr && product->kind == UsbProduct::Kind::loader)
+    return {
+        ErrorCode::not_found,
+        fmt::format(
+            "LIBERTY: the unit on {} waits for its firmware; install fxload and Polhemus' firmware files as "
+            "docs/liberty.md says, then plug it in again",
+            describe(finding))};
+  return {ErrorCode::unsupported,
+          fmt::format("LIBERTY: {} is a {}, which is another product", describe(finding),
+                      product != nullptr ? product->name : "Polhemus device")};
 }
 
 Error usb_open_error(const UsbFinding& finding, int error) {

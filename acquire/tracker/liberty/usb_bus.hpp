@@ -28,6 +28,10 @@ std::string describe(const UsbFinding& finding);
 /// Why it cannot be opened, from libusb's error code: permission (with the udev rule), busy, gone.
 Error usb_open_error(const UsbFinding& finding, int libusb_error);
 
+/// Why a Polhemus device that is no running LIBERTY cannot be used: waits for its firmware, or is another
+/// product.
+Error usb_product_error(const UsbFinding& finding);
+
 class UsbBus {
  public:
   static Result<std::unique_ptr<UsbBus>> open();

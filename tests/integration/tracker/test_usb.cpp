@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <libusb.h>
 
+#include "acquire/tracker/liberty/find_trackers.hpp"
 #include "acquire/tracker/liberty/usb_transport.hpp"
 #include "tests/integration/tracker/driver_on_line.hpp"
 #include "tests/integration/tracker/fake/fake_usb.hpp"
@@ -62,6 +63,26 @@ TEST_F(LibertyUsb, OneOfSeveralIsChosenByPath) {
   EXPECT_TRUE(second.claimed());
   EXPECT_FALSE(first.claimed());
   EXPECT_THAT(open_error("4-4").message, HasSubstr("there is none on USB 4-4"));
+}
+
+TEST_F(LibertyUsb, TheListSaysWhatIsThereAndWhyItCannotBeUsed) {
+  FakeLiberty other(1);
+  FakeUsb running(bus, unit, {.device = 10, .port = "2"});
+  FakeUsb loader(bus, other, {.product = 0xff21, .device = 11, .port = "3"});
+  const auto look = [](const std::string& what) {
+    const auto found = find_trackers();
+    for (const TrackerFinding& finding : found ? *found : std::vector<TrackerFinding>())
+      if (finding.what == what) return finding;
+    return TrackerFinding{"nowhere", what, std::nullopt};
+  };
+  EXPECT_EQ(look("LIBERTY").where, "USB 1-2 (0f44:ff20)");
+  EXPECT_FALSE(look("LIBERTY").obstacle);
+  ASSERT_TRUE(look("LIBERTY without firmware").obstacle);
+  EXPECT_THAT(look("LIBERTY without firmware").obstacle->message, HasSubstr("waits for its firmware"));
+  running.set_claim_error(EBUSY);
+  ASSERT_TRUE(look("LIBERTY").obstacle);
+  EXPECT_EQ(look("LIBERTY").obstacle->code, ErrorCode::busy);
+  EXPECT_TRUE(unit.commands().empty()) << "looking sends nothing";
 }
 
 TEST_F(LibertyUsb, ABusyUnit) {
