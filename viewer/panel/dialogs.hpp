@@ -1,0 +1,38 @@
+// The two windows beside the main one: the list of keys, and the diagnostics.
+#pragma once
+
+#include <QDialog>
+#include <QStringList>
+
+#include "viewer/view_state.hpp"
+
+class QPlainTextEdit;
+class QTableWidget;
+
+namespace linescope {
+
+class ShortcutsDialog : public QDialog {
+ public:
+  explicit ShortcutsDialog(QWidget* parent);
+};
+
+/// What the display itself knows of its own pace.
+struct DisplayFigures {
+  double late_p50_ms = 0, late_p95_ms = 0;  ///< how late the display tick came: what an event waits
+  double draw_p50_ms = 0, draw_p95_ms = 0;  ///< to draw the scene
+  std::string graphics;
+};
+
+class DiagnosticsDialog : public QDialog {
+ public:
+  explicit DiagnosticsDialog(QWidget* parent);
+  void show_state(const ViewState& state, const DisplayFigures& display, const QStringList& log);
+
+ private:
+  QString as_text() const;
+
+  QTableWidget *latencies_, *counters_;
+  QPlainTextEdit *summary_, *log_;
+};
+
+}  // namespace linescope

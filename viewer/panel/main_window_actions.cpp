@@ -1,0 +1,187 @@
+// What the operator's actions do.
+#include <QApplication>
+#include <QDateTime>
+
+#include "common/units.hpp"
+#include "viewer/panel/banner_bar.hpp"
+#include "viewer/panel/dialogs.hpp"
+#include "viewer/panel/main_window.hpp"
+#include "viewer/panel/scene_widget.hpp"
+
+namespace linescope {
+namespace {
+
+constexpr double kTurnStep = 5;    ///< degrees per key
+constexpr double kZoomStep = 1.1;  ///< per key
+
+}  // namespace
+
+void MainWindow::act(OperatorAction action) {
+  switch (action) {
+    case OperatorAction::scan:
+      return scan_or_stop();
+    case OperatorAction::clear:
+      return clear();
+    case OperatorAction::undo_sweep:
+      return hooks_.command(CommandKind::undo_sweep);
+    case OperatorAction::show_scan:
+      set_moment(Moment::scan);
+      return set_shown(Shown::points);
+    case OperatorAction::surface:
+      set_moment(Moment::surface);
+      return set_shown(Shown::surface);
+    case OperatorAction::navigate:
+      set_moment(Moment::navigate);
+      return set_shown(Shown::surface);
+    default:
+      break;
+  }
+  if (action >= OperatorAction::show_points && action <= OperatorAction::coarser)
+    return act_on_surface(action);
+  if (action >= OperatorAction::layout_one && action <= OperatorAction::flip_harvester)
+    return act_on_views(action);
+  if (action >= OperatorAction::turn_left && action <= OperatorAction::farther) return move_view(action);
+  act_on_window(action);
+}
+
+void MainWindow::scan_or_stop() {
+  const bool scanning = state_.live->scan.scanning;
+  hooks_.command(scanning ? CommandKind::stop : CommandKind::start);
+  if (scanning) return;
+  set_moment(Moment::scan);
+  set_shown(Shown::points);
+}
+
+void MainWindow::clear() {
+  hooks_.forget_scan();
+  if (state_.live->link.state == LinkState::attached) hooks_.command(CommandKind::clear);
+}
+
+void MainWindow::act_on_surface(OperatorAction action) {
+  switch (action) {
+    case OperatorAction::show_points:
+      return set_shown(Shown::points);
+    case OperatorAction::show_grid:
+      return set_shown(Shown::grid);
+    case OperatorAction::show_surface:
+      return set_shown(Shown::surface);
+    case OperatorAction::show_wireframe:
+      return set_shown(Shown::wireframe);
+    case OperatorAction::normals:
+      return surface_page_->toggle_normals();
+    case OperatorAction::method:
+      return surface_page_->next_method();
+    case OperatorAction::finer:
+      return surface_page_->step_interval(true);
+    case OperatorAction::coarser:
+      return surface_page_->step_interval(false);
+    default:
+      break;
+  }
+}
+
+void MainWindow::act_on_views(OperatorAction action) {
+  switch (action) {
+    case OperatorAction::layout_one:
+      return scene().set_layout(ViewLayout::one);
+    case OperatorAction::layout_one_and_three:
+      return scene().set_layout(ViewLayout::one_and_three);
+    case OperatorAction::layout_two_by_two:
+      return scene().set_layout(ViewLayout::two_by_two);
+    case OperatorAction::reset_view:
+      scene().follow_harvester(false);
+      return scene().reset_view();
+    case OperatorAction::follow_harvester:
+      return scene().follow_harvester(!scene().following());
+    case OperatorAction::flip_harvester:
+      return scene().flip_harvester_view();
+    default:
+      break;
+  }
+}
+
+void MainWindow::move_view(OperatorAction action) {
+  ViewPose pose = scene().view_pose();
+  const double step = radians_from_degrees(kTurnStep);
+  switch (action) {
+    case OperatorAction::turn_left:
+      pose.azimuth -= step;
+      break;
+    case OperatorAction::turn_right:
+      pose.azimuth += step;
+      break;
+    case OperatorAction::turn_up:
+      pose.elevation = std::min(pose.elevation + step, radians_from_degrees(90));
+      break;
+    case OperatorAction::turn_down:
+      pose.elevation = std::max(pose.elevation - step, radians_from_degrees(-90));
+      break;
+    case OperatorAction::roll_left:
+      pose.roll += step;
+      break;
+    case OperatorAction::roll_right:
+      pose.roll -= step;
+      break;
+    case OperatorAction::nearer:
+      pose.distance /= kZoomStep;
+      break;
+    case OperatorAction::farther:
+      pose.distance *= kZoomStep;
+      break;
+    default:
+      return;
+  }
+  scene().follow_harvester(false);
+  scene().set_view_pose(pose);
+}
+
+void MainWindow::act_on_window(OperatorAction action) {
+  switch (action) {
+    case OperatorAction::measure:
+      measuring_ = true;
+      measure_from_.reset();
+      set_moment(Moment::surface);
+      return surface_page_->show_measurement("click the first point in the free view");
+    case OperatorAction::save_picture: {
+      const QString file = QDateTime::currentDateTime().toString("'linescope-'yyyyMMdd-HHmmss'.png'");
+      const auto saved = save_picture(file);
+      return show_notice({monotonic_now(), saved ? Notice::Kind::information : Notice::Kind::refusal,
+                          saved ? "Picture saved as " + file.toStdString() : saved.error().message});
+    }
+    case OperatorAction::diagnostics:
+      if (diagnostics_ == nullptr) diagnostics_ = new DiagnosticsDialog(this);
+      return diagnostics_->show();
+    case OperatorAction::shortcuts:
+      if (shortcuts_ == nullptr) shortcuts_ = new ShortcutsDialog(this);
+      return shortcuts_->show();
+    case OperatorAction::full_screen:
+      return isFullScreen() ? showNormal() : showFullScreen();
+    case OperatorAction::quit:
+      close();
+      return;
+    default:
+      break;
+  }
+}
+
+void MainWindow::measure_click(int x, int y) {
+  if (!measuring_) return;
+  const auto point = scene().pick(x, y);
+  if (!point) return surface_page_->show_measurement("no point there: click on the surface");
+  if (!measure_from_) {
+    measure_from_ = point;
+    return surface_page_->show_measurement("click the second point");
+  }
+  surface_page_->show_measurement(QString("%1 mm").arg((*point - *measure_from_).norm(), 0, 'f', 2));
+  measuring_ = false;
+}
+
+Result<void> MainWindow::save_picture(const QString& file) {
+  scene().request_picture();
+  views_->draw_if_needed();
+  if (grab().save(file)) return {};
+  return fail(ErrorCode::unreadable,
+              "picture " + file.toStdString() + " cannot be written: is the folder there and writable?");
+}
+
+}  // namespace linescope

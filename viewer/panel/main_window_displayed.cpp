@@ -1,0 +1,95 @@
+// The window's texts as an object for scripts and tests.
+#include <QJsonArray>
+#include <QLabel>
+
+#include "viewer/panel/angle_display.hpp"
+#include "viewer/panel/banner_bar.hpp"
+#include "viewer/panel/main_window.hpp"
+#include "viewer/panel/navigate_page.hpp"
+#include "viewer/panel/scene_widget.hpp"
+
+namespace linescope {
+namespace {
+
+QJsonObject json(const StatusLine& line) {
+  return {{"state", QString::fromStdString(line.word)}, {"detail", QString::fromStdString(line.detail)}};
+}
+
+QJsonObject json(const Readout& readout) {
+  return {{"text", QString::fromStdString(readout.text)}, {"reason", QString::fromStdString(readout.reason)}};
+}
+
+double number(std::uint64_t value) {
+  return static_cast<double>(value);
+}
+
+const char* word(LinkState state) {
+  switch (state) {
+    case LinkState::searching:
+      return "searching";
+    case LinkState::attached:
+      return "attached";
+    case LinkState::silent:
+      return "silent";
+    case LinkState::ended:
+      return "ended";
+    case LinkState::refused:
+      return "refused";
+  }
+  return "?";
+}
+
+}  // namespace
+
+QJsonObject MainWindow::displayed_state() const {
+  const LiveView& live = *state_.live;
+  const Nanoseconds now = monotonic_now();
+  const AngleReadout angle = angle_readout(state_, now, navigate_page_->tolerance());
+  Scene& scene = views_->scene();
+  return {
+      {"time_ns", QString::number(now)},
+      {"moment", name(moment_)},
+      {"link", word(live.link.state)},
+      {"daemon_pid", static_cast<int>(live.link.pid)},
+      {"angle_text", angle_->shown()},
+      {"angle_reason", angle_->reason()},
+      {"interval", json(angle.interval)},
+      {"distance", json(angle.distance)},
+      {"depth", json(angle.depth)},
+      {"in_tolerance", angle.in_tolerance},
+      {"gap", json(gap_readout(live, now))},
+      {"pose_time_ns", QString::number(state_.navigation->harvester_time)},
+      {"tools", QJsonObject{{"endoscope", json(tool_status(live, ToolRole::endoscope, now))},
+                            {"object", json(tool_status(live, ToolRole::object, now))},
+                            {"harvester", json(tool_status(live, ToolRole::harvester, now))},
+                            {"camera", json(camera_status(live, now))},
+                            {"daemon", json(daemon_status(live, now))}}},
+      {"banner", banner_->text()},
+      {"advice", banner_->advice()},
+      {"notice", banner_->notice()},
+      {"scanning", live.scan.scanning},
+      {"full", live.scan.full},
+      {"scan_id", static_cast<int>(live.scan.scan_id)},
+      {"points", number(live.scan.points)},
+      {"lines", number(live.scan.lines)},
+      {"lines_unplaced", number(live.scan.lines_unplaced)},
+      {"points_received", number(scene.cloud().received())},
+      {"points_drawn", number(scene.cloud().drawn())},
+      {"triangles", number(scene.surface().triangles())},
+      {"grid_points", number(scene.surface().grid_points())},
+      {"surface_version", number(state_.surface->version)},
+      {"surface_method", QString::fromStdString(state_.surface->method)},
+      {"surface_interval_mm", state_.surface->interval},
+      {"surface_points", number(state_.surface->points)},
+      {"normal_visible", scene.guidance().normal_visible()},
+      {"harvester_visible", scene.guidance().harvester_visible()},
+      {"harvester_ghosted", scene.guidance().harvester_ghosted()},
+      {"views", static_cast<int>(scene.visible_views().size())},
+      {"shown", static_cast<int>(surface_page_->shown())},
+      {"late_p95_ms", late_.percentile(0.95)},
+      {"draw_p95_ms", draw_.percentile(0.95)},
+      {"graphics", QString::fromStdString(views_->graphics())},
+  };
+}
+
+}  // namespace linescope

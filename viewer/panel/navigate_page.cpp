@@ -1,0 +1,99 @@
+#include "viewer/panel/navigate_page.hpp"
+
+#include <fmt/format.h>
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <cmath>
+
+#include "common/units.hpp"
+
+namespace linescope {
+namespace {
+
+constexpr double kHoldSeconds = 1.0;  ///< within tolerance this long counts as held
+
+QDoubleSpinBox* limit_box(QWidget* parent, double value, double most, const char* suffix, const char* tip) {
+  auto* box = new QDoubleSpinBox(parent);
+  box->setRange(0.5, most);
+  box->setDecimals(1);
+  box->setSingleStep(0.5);
+  box->setValue(value);
+  box->setSuffix(suffix);
+  box->setToolTip(tip);
+  return box;
+}
+
+}  // namespace
+
+NavigatePage::NavigatePage(std::function<void(NormalChoice)> choose, NormalChoice choice, QWidget* parent)
+    : SidePage(parent), bullseye_(new Bullseye(this)) {
+  column_->addWidget(bullseye_, 1);
+  distance_ = add_row("Distance");
+  depth_ = add_row("Along axis");
+  uncertainty_ = add_row("Normal ±");
+  basis_ = add_row("Rests on");
+  held_ = add_row("Held");
+  add_tolerance();
+  method_ = new QComboBox(this);
+  for (const NormalChoice c : {NormalChoice::robust, NormalChoice::algorithm_1})
+    method_->addItem(QString::fromStdString(name(c)), static_cast<int>(c));
+  method_->setCurrentIndex(method_->findData(static_cast<int>(choice)));
+  method_->setToolTip("How the surface normal is computed");
+  column_->addWidget(method_);
+  connect(method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this, choose] { choose(static_cast<NormalChoice>(method_->currentData().toInt())); });
+}
+
+void NavigatePage::add_tolerance() {
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel("Tolerance", this);
+  label->setFixedWidth(scaled(92));
+  angle_limit_ = limit_box(this, 3, 20, "°", "The harvester is on target up to this angle");
+  distance_limit_ = limit_box(this, 3, 20, " mm", "... and up to this distance of its tip from the surface");
+  sound_ = new QCheckBox("Sound", this);
+  sound_->setToolTip("A quiet sound when the harvester was held within the tolerance for a second");
+  row->addWidget(label);
+  row->addWidget(angle_limit_);
+  row->addWidget(distance_limit_);
+  row->addWidget(sound_);
+  column_->addLayout(row);
+}
+
+Tolerance NavigatePage::tolerance() const {
+  return {angle_limit_->value(), distance_limit_->value()};
+}
+
+void NavigatePage::update_hold(bool in_tolerance, Nanoseconds now) {
+  if (!in_tolerance)
+    in_since_ = 0, told_ = false;
+  else if (in_since_ == 0)
+    in_since_ = now;
+  held_s_ = in_since_ == 0 ? 0 : seconds_from(now - in_since_);
+  const bool held = held_s_ >= kHoldSeconds;
+  held_->set_text(in_since_ == 0
+                      ? QStringLiteral("– –")
+                      : QString("%1%2 s").arg(held ? mark(Mood::good) + " " : "").arg(held_s_, 0, 'f', 1));
+  held_->set_colour(held ? colour(Mood::good) : colour(palette::kText));
+  if (held && !std::exchange(told_, true) && sound_->isChecked()) QApplication::beep();
+}
+
+void NavigatePage::show_state(const AngleReadout& angle, const std::optional<BullseyeReading>& tilts,
+                              const NavigationView& navigation, Nanoseconds now) {
+  bullseye_->show_reading(tilts);
+  distance_->set_text(text_of(angle.distance));
+  depth_->set_text(text_of(angle.depth));
+  const bool blank = angle.angle.blank();
+  uncertainty_->set_text(
+      blank || !std::isfinite(navigation.uncertainty)
+          ? QStringLiteral("– –")
+          : QString("%1° (95 %)").arg(degrees_from_radians(navigation.uncertainty), 0, 'f', 1));
+  basis_->set_text(blank ? QStringLiteral("– –")
+                         : QString::fromStdString(
+                               fmt::format("{} points, {} lines", navigation.points, navigation.lines)));
+  update_hold(!blank && angle.in_tolerance, now);
+}
+
+}  // namespace linescope

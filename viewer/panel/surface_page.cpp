@@ -1,0 +1,157 @@
+#include "viewer/panel/surface_page.hpp"
+
+#include <fmt/format.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QPushButton>
+#include <algorithm>
+
+#include "viewer/panel/operator_action.hpp"
+#include "viewer/surface_worker.hpp"
+
+namespace linescope {
+namespace {
+
+constexpr const char* kShownNames[kShown] = {"Points", "3D grid", "Surface", "Wireframe"};
+constexpr OperatorAction kShownActions[kShown] = {OperatorAction::show_points, OperatorAction::show_grid,
+                                                  OperatorAction::show_surface,
+                                                  OperatorAction::show_wireframe};
+constexpr MeshMethod kMethods[] = {MeshMethod::proposed_cubes, MeshMethod::implicit,
+                                   MeshMethod::classical_cubes};
+constexpr ColourBy kColours[] = {ColourBy::plain, ColourBy::height, ColourBy::uncertainty, ColourBy::age,
+                                 ColourBy::coverage};
+
+}  // namespace
+
+SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* parent)
+    : SidePage(parent), hooks_(std::move(hooks)), options_(options) {
+  add_shown();
+  add_making();
+  add_colours();
+  add_heading("Result");
+  made_of_ = add_row("Made of");
+  size_ = add_row("Size");
+  area_ = add_row("Area");
+  time_ = add_row("Made in");
+  drawn_ = add_row("Drawn");
+  add_heading("Measure");
+  measured_ = add_row("Distance");
+  show_measurement("press D, then click two points");
+  column_->addStretch(1);
+  set_shown(Shown::points);
+}
+
+void SurfacePage::add_shown() {
+  add_heading("Show");
+  auto* row = new QHBoxLayout;
+  row->setSpacing(scaled(4));
+  for (int i = 0; i < kShown; ++i) {
+    auto* button = new QPushButton(kShownNames[i], this);
+    button->setObjectName("small");
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::TabFocus);
+    button->setToolTip(tooltip(kShownActions[i]));
+    connect(button, &QPushButton::clicked, this, [this, i] { hooks_.show(static_cast<Shown>(i)); });
+    row->addWidget(button, 1);
+    show_buttons_[static_cast<std::size_t>(i)] = button;
+  }
+  column_->addLayout(row);
+}
+
+void SurfacePage::add_making() {
+  add_heading("Make");
+  method_ = new QComboBox(this);
+  for (const MeshMethod method : kMethods)
+    method_->addItem(QString::fromStdString(name(method)), static_cast<int>(method));
+  method_->setCurrentIndex(method_->findData(static_cast<int>(options_.method)));
+  method_->setToolTip(tooltip(OperatorAction::method));
+  interval_ = new QDoubleSpinBox(this);
+  interval_->setRange(0.2, 10);
+  interval_->setDecimals(3);
+  interval_->setSingleStep(0.1);
+  interval_->setSuffix(" mm");
+  interval_->setKeyboardTracking(false);
+  interval_->setValue(options_.interval);
+  interval_->setToolTip("Cubic interval t; the thesis used 0.635, 1.27, 2.54 and 5.08 mm  ([ and ])");
+  column_->addWidget(method_);
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel("Interval t", this);
+  label->setFixedWidth(scaled(92));
+  row->addWidget(label);
+  row->addWidget(interval_, 1);
+  column_->addLayout(row);
+  connect(method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] { options_changed(); });
+  connect(interval_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this] { options_changed(); });
+}
+
+void SurfacePage::add_colours() {
+  normals_ = new QCheckBox("Shade with normals", this);
+  normals_->setChecked(true);
+  normals_->setToolTip(tooltip(OperatorAction::normals));
+  colour_ = new QComboBox(this);
+  for (const ColourBy what : kColours) colour_->addItem(name(what), static_cast<int>(what));
+  colour_->setToolTip(
+      "Colour of points and surface; age exists for points only, coverage for the surface only");
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel("Colour by", this);
+  label->setFixedWidth(scaled(92));
+  row->addWidget(label);
+  row->addWidget(colour_, 1);
+  column_->addWidget(normals_);
+  column_->addLayout(row);
+  connect(normals_, &QCheckBox::toggled, this, [this](bool on) { hooks_.normals(on); });
+  connect(colour_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this] { hooks_.colour(static_cast<ColourBy>(colour_->currentData().toInt())); });
+}
+
+void SurfacePage::options_changed() {
+  options_.method = static_cast<MeshMethod>(method_->currentData().toInt());
+  options_.interval = interval_->value();
+  hooks_.make(options_);
+}
+
+void SurfacePage::set_shown(Shown shown) {
+  shown_ = shown;
+  for (std::size_t i = 0; i < kShown; ++i) show_buttons_[i]->setChecked(i == static_cast<std::size_t>(shown));
+}
+
+void SurfacePage::next_method() {
+  method_->setCurrentIndex((method_->currentIndex() + 1) % method_->count());
+}
+
+void SurfacePage::step_interval(bool finer) {
+  const auto begin = std::begin(kThesisIntervals), end = std::end(kThesisIntervals);
+  const double now = options_.interval;
+  const auto above = std::upper_bound(begin, end, now + 1e-9), at = std::lower_bound(begin, end, now - 1e-9);
+  if (finer && at != begin) interval_->setValue(*(at - 1));
+  if (!finer && above != end) interval_->setValue(*above);
+}
+
+void SurfacePage::toggle_normals() {
+  normals_->toggle();
+}
+
+void SurfacePage::show_measurement(const QString& text) {
+  measured_->set_text(text);
+}
+
+void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
+  const SurfaceView& s = *state.surface;
+  drawn_->set_text(QString::fromStdString(drawn));
+  if (!s.fault.empty()) return made_of_->set_text(QString::fromStdString(s.fault));
+  made_of_->set_text(QString::fromStdString(
+      fmt::format("{} points, {} lines{}", grouped(s.points), grouped(s.lines),
+                  s.points_refused > 0 ? fmt::format(" ({} refused)", grouped(s.points_refused)) : "")));
+  const bool any = s.mesh && !s.mesh->empty();
+  size_->set_text(any ? QString::fromStdString(fmt::format("{} triangles, {} grid points",
+                                                           grouped(s.mesh->triangle_count()),
+                                                           grouped(s.grid ? s.grid->size() : 0)))
+                      : QStringLiteral("– –  no surface yet"));
+  area_->set_text(any ? QString("%1 mm²").arg(s.area, 0, 'f', 1) : QStringLiteral("– –"));
+  time_->set_text(any ? QString("%1 ms").arg(milliseconds_from(s.took), 0, 'f', 1) : QStringLiteral("– –"));
+}
+
+}  // namespace linescope

@@ -1,0 +1,35 @@
+// Carries out a script on the window, a step per display tick.
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "viewer/panel/main_window.hpp"
+#include "viewer/script.hpp"
+
+namespace linescope {
+
+class ScriptRunner {
+ public:
+  ScriptRunner(std::vector<Step> steps, std::string pictures, MainWindow& window);
+
+  enum class Progress { going_on, done, failed };
+  /// Call once per tick.
+  Progress advance(Nanoseconds now);
+  /// Why it failed: one sentence.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  bool finished(const Step& step, Nanoseconds now);
+  bool wait_for(const Step& step, Nanoseconds now);
+  void carry_out(const Step& step);
+  void fail_at(const Step& step, const std::string& why);
+
+  std::deque<Step> steps_;
+  std::string pictures_;
+  MainWindow& window_;
+  Nanoseconds begun_ = 0;  ///< of the present step; 0: not begun
+  std::string fault_;
+};
+
+}  // namespace linescope

@@ -1,0 +1,132 @@
+#include "viewer/surface_worker.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "viewer/surface/mesher.hpp"
+
+namespace linescope {
+namespace {
+
+// Between two meshes of a growing surface: the eye needs no more, the two cores have other work.
+constexpr Nanoseconds kMeshEvery = 250 * kMillisecond;
+
+}  // namespace
+
+std::string name(MeshMethod method) {
+  switch (method) {
+    case MeshMethod::proposed_cubes:
+      return "Proposed marching cubes (thesis)";
+    case MeshMethod::classical_cubes:
+      return "Classical marching cubes";
+    case MeshMethod::implicit:
+      return "One-sided surface (implicit)";
+  }
+  return "?";
+}
+
+/// What belongs to the thread alone.
+struct SurfaceWorker::Work {
+  MesherOptions options;
+  std::unique_ptr<Mesher> mesher;
+  HeldLines lines;  ///< all of them, for other options
+  std::uint64_t version = 0;
+  std::string fault;
+  Nanoseconds made_at = 0;
+  bool changed = false;
+
+  void add_line(const HeldLine& line) {
+    mesher->add_line(
+        {.points = line.points, .seen_from = line.seen_from, .time = line.time, .id = line.serial});
+  }
+
+  void take(const LineNews& news) {
+    changed = true;
+    if (news.forget) {
+      mesher->clear();
+      lines.clear();
+    }
+    for (const auto& line : news.lines) add_line(*line);
+    lines.insert(lines.end(), news.lines.begin(), news.lines.end());
+  }
+
+  void change(const MesherOptions& wanted) {
+    changed = true;
+    auto made = make_mesher(wanted);
+    fault = made ? std::string() : made.error().message;
+    if (!made) return;
+    options = wanted;
+    mesher = std::move(*made);
+    for (const auto& line : lines) add_line(*line);
+  }
+
+  std::shared_ptr<const SurfaceView> make() {
+    const Nanoseconds begin = monotonic_now();
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesher->write_mesh(*mesh);
+    auto view = std::make_shared<SurfaceView>();
+    view->area = mesh->area();
+    view->grid = std::make_shared<const std::vector<Eigen::Vector3f>>(mesher->grid_vertices());
+    view->mesh = std::move(mesh);
+    const MesherCounters counters = mesher->counters();
+    view->version = ++version;
+    view->method = name(options.method);
+    view->interval = options.interval;
+    view->lines = counters.lines;
+    view->points = counters.points;
+    view->points_refused = counters.refused();
+    view->fault = fault;
+    made_at = monotonic_now();
+    view->took = made_at - begin;
+    changed = false;
+    return view;
+  }
+};
+
+SurfaceWorker::SurfaceWorker(const MesherOptions& options, Sink sink)
+    : sink_(std::move(sink)), work_(std::make_unique<Work>()) {
+  work_->options = options;
+  if (auto made = make_mesher(options))
+    work_->mesher = std::move(*made);
+  else
+    work_->mesher = std::move(*make_mesher({}));
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+SurfaceWorker::~SurfaceWorker() = default;
+
+void SurfaceWorker::add(const LineNews& news) {
+  const std::lock_guard lock(mutex_);
+  inbox_.push_back(news);
+  wake_.notify_one();
+}
+
+void SurfaceWorker::set_options(const MesherOptions& options) {
+  const std::lock_guard lock(mutex_);
+  new_options_ = std::make_unique<MesherOptions>(options);
+  wake_.notify_one();
+}
+
+void SurfaceWorker::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::vector<LineNews> news;
+    std::unique_ptr<MesherOptions> options;
+    {
+      std::unique_lock lock(mutex_);
+      const auto due =
+          std::chrono::nanoseconds(std::max<Nanoseconds>(kMeshEvery - (monotonic_now() - work_->made_at), 0));
+      const auto something = [&] { return !inbox_.empty() || new_options_; };
+      if (work_->changed)
+        wake_.wait_for(lock, stop, due, something);
+      else
+        wake_.wait(lock, stop, something);
+      news.swap(inbox_);
+      options.swap(new_options_);
+    }
+    for (const LineNews& n : news) work_->take(n);
+    if (options) work_->change(*options);
+    if (work_->changed && monotonic_now() - work_->made_at >= kMeshEvery) sink_(work_->make());
+  }
+}
+
+}  // namespace linescope
