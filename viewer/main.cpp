@@ -38,6 +38,8 @@ int run(int argc, char** argv, const ViewerOptions& options) {
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication application(argc, argv);
   QApplication::setApplicationName("linescope-viewer");
+  QApplication::setStyle("Fusion");
+  QApplication::setPalette(dark_palette());
   set_panel_scale(options.font_scale);
   ViewerApp viewer(options, std::move(script));
   return exit_status(viewer.run());

@@ -1,5 +1,6 @@
 #include "viewer/surface_worker.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 
@@ -10,6 +11,20 @@ namespace {
 
 // Between two meshes of a growing surface: the eye needs no more, the two cores have other work.
 constexpr Nanoseconds kMeshEvery = 250 * kMillisecond;
+
+/// Area of the triangles that face the mean place the lines were seen from.
+double seen_area(const TriangleMesh& mesh, const HeldLines& lines) {
+  if (lines.empty()) return 0;
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
+  for (const auto& line : lines) eye += line->seen_from / static_cast<double>(lines.size());
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const Eigen::Vector3f twice = (b - a).cross(c - a);
+    if (twice.dot(eye.cast<float>() - a) > 0) sum += 0.5 * static_cast<double>(twice.norm());
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -66,6 +81,7 @@ struct SurfaceWorker::Work {
     mesher->write_mesh(*mesh);
     auto view = std::make_shared<SurfaceView>();
     view->area = mesh->area();
+    view->seen_area = seen_area(*mesh, lines);
     view->grid = std::make_shared<const std::vector<Eigen::Vector3f>>(mesher->grid_vertices());
     view->mesh = std::move(mesh);
     const MesherCounters counters = mesher->counters();

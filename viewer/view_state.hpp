@@ -163,7 +163,8 @@ struct SurfaceView {
   std::uint64_t lines = 0;    ///< in it
   std::uint64_t points = 0;
   std::uint64_t points_refused = 0;
-  double area = 0;       ///< mm^2
+  double area = 0;       ///< of all triangles, mm^2
+  double seen_area = 0;  ///< of those that face the camera: a closed skin has a back nobody scanned
   Nanoseconds took = 0;  ///< to bring it up to date
   bool busy = false;     ///< lines are waiting or a mesh is being made
   std::string fault;     ///< options that cannot be

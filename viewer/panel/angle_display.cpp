@@ -25,6 +25,13 @@ void AngleDisplay::set_numeral_size(double pixels) {
   update();
 }
 
+int AngleDisplay::fitting_size(QFont font, int width) const {
+  const int wanted = scaled(numeral_size_);
+  font.setPixelSize(wanted);
+  const int needed = QFontMetrics(font).horizontalAdvance(shown_);
+  return needed <= width ? wanted : wanted * width / needed;
+}
+
 void AngleDisplay::show_angle(const AngleReadout& readout) {
   const QString text = QString::fromStdString(readout.angle.text);
   const bool edge = readout.angle.blank() != (shown_ == kBlank);
@@ -57,7 +64,7 @@ void AngleDisplay::paintEvent(QPaintEvent* event) {
     painter.setPen(colour(Mood::good));
     painter.drawText(inner, Qt::AlignRight | Qt::AlignTop, mark(Mood::good) + " within tolerance");
   }
-  font.setPixelSize(scaled(numeral_size_));
+  font.setPixelSize(fitting_size(font, inner.width()));
   painter.setFont(font);
   painter.setPen(blank ? colour(palette::kQuiet) : in_tolerance_ ? colour(Mood::good) : QColor(Qt::white));
   painter.drawText(inner.adjusted(0, scaled(14), 0, -scaled(22)), Qt::AlignCenter,

@@ -23,6 +23,8 @@ class AngleDisplay : public QFrame {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  int fitting_size(QFont font, int width) const;
+
   QString shown_, reason_, interval_;
   bool in_tolerance_ = false;
   double numeral_size_ = 60;

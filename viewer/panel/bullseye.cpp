@@ -18,7 +18,7 @@ QString signed_degrees(double value) {
 }  // namespace
 
 Bullseye::Bullseye(QWidget* parent) : QWidget(parent) {
-  setMinimumHeight(scaled(150));
+  setMinimumHeight(scaled(120));
   setToolTip("Bullseye along the harvester: bring the dot into the ring. Rings: 5, 10, 15, 20 degrees");
 }
 

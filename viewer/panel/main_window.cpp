@@ -21,7 +21,7 @@ namespace linescope {
 namespace {
 
 constexpr int kSideWidth = 348;
-constexpr double kSmallNumerals = 44, kLargeNumerals = 118;
+constexpr double kSmallNumerals = 44, kLargeNumerals = 94;
 constexpr int kMessagesKept = 500;
 
 }  // namespace

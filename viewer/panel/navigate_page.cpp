@@ -91,8 +91,9 @@ void NavigatePage::show_state(const AngleReadout& angle, const std::optional<Bul
           ? QStringLiteral("– –")
           : QString("%1° (95 %)").arg(degrees_from_radians(navigation.uncertainty), 0, 'f', 1));
   basis_->set_text(blank ? QStringLiteral("– –")
-                         : QString::fromStdString(
-                               fmt::format("{} points, {} lines", navigation.points, navigation.lines)));
+                         : QString::fromStdString(fmt::format(
+                               "{} points, {} lines", grouped(static_cast<std::uint64_t>(navigation.points)),
+                               navigation.lines)));
   update_hold(!blank && angle.in_tolerance, now);
 }
 

@@ -56,7 +56,7 @@ void ScanPage::show_state(const ViewState& state, Nanoseconds now) {
       fmt::format("{} points, {} lines", grouped(live.scan.points), grouped(live.scan.lines))));
   const SurfaceView& surface = *state.surface;
   area_->set_text(surface.mesh && !surface.mesh->empty()
-                      ? QString("%1 mm² of surface").arg(surface.area, 0, 'f', 0)
+                      ? QString("about %1 mm²").arg(surface.seen_area, 0, 'f', 0)
                       : QStringLiteral("– –  no surface yet"));
   left_out_->set_text(QString::fromStdString(left_out(live.scan)));
   left_out_->set_colour(live.scan.lines_unplaced > 0 ? colour(Mood::caution) : colour(palette::kText));

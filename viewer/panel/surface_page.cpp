@@ -150,7 +150,9 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
                                                            grouped(s.mesh->triangle_count()),
                                                            grouped(s.grid ? s.grid->size() : 0)))
                       : QStringLiteral("– –  no surface yet"));
-  area_->set_text(any ? QString("%1 mm²").arg(s.area, 0, 'f', 1) : QStringLiteral("– –"));
+  area_->set_text(
+      any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
+          : QStringLiteral("– –"));
   time_->set_text(any ? QString("%1 ms").arg(milliseconds_from(s.took), 0, 'f', 1) : QStringLiteral("– –"));
 }
 

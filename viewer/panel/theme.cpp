@@ -12,7 +12,7 @@ double& the_scale() {
 
 // @N is N pixels at scale 1.
 const char* const kSheet = R"(
-* { font-family: "DejaVu Sans", "Noto Sans", sans-serif; font-size: @13px; color: #d7dde3; }
+QWidget { font-family: "DejaVu Sans", "Noto Sans", sans-serif; font-size: @13px; }
 QMainWindow, QDialog, QWidget#central, QWidget#page, QScrollArea { background: #12171c; border: none; }
 QToolTip { background: #28323b; color: #d7dde3; border: 1px solid #465460; padding: @4px; }
 QLabel { background: transparent; }
@@ -23,15 +23,12 @@ QLabel#disclaimer { color: #12171c; background: #e69f00; border-radius: @3px; pa
 QFrame#card, QFrame#box { background: #1a2128; border: 1px solid #2a343d; border-radius: @4px; }
 QPushButton { background: #28323b; border: 1px solid #3a4650; border-radius: @4px; padding: @5px @10px; min-height: @18px; }
 QPushButton:hover { background: #33404b; border-color: #56656f; }
-QPushButton:focus, QComboBox:focus, QAbstractSpinBox:focus { border-color: #56b4e9; }
+QPushButton:focus { border-color: #56b4e9; }
 QPushButton:pressed { background: #1f272e; }
 QPushButton:checked { background: #1d5f86; border-color: #56b4e9; color: #ffffff; }
 QPushButton:disabled { color: #5d6871; background: #1a2128; }
 QPushButton#action { font-size: @15px; font-weight: bold; padding: @8px @18px; min-width: @66px; }
 QPushButton#small { padding: @3px @8px; min-height: @16px; }
-QComboBox, QAbstractSpinBox, QLineEdit { background: #0e1216; border: 1px solid #3a4650; border-radius: @3px; padding: @3px @6px; min-height: @18px; }
-QComboBox QAbstractItemView { background: #1a2128; selection-background-color: #1d5f86; border: 1px solid #3a4650; }
-QCheckBox, QRadioButton { spacing: @7px; background: transparent; }
 QPlainTextEdit, QTableWidget, QTextBrowser { background: #0e1216; border: 1px solid #2a343d; gridline-color: #2a343d; }
 QHeaderView::section { background: #1a2128; border: none; padding: @4px; color: #96a2ad; }
 QTabBar::tab { background: #1a2128; padding: @6px @14px; border: 1px solid #2a343d; }
@@ -84,6 +81,23 @@ void set_panel_scale(double scale) {
 double panel_scale() {
   return the_scale();
 }
+QPalette dark_palette() {
+  QPalette p;
+  const QColor ground("#12171c"), field("#0e1216"), control("#28323b"), text("#d7dde3"), faint("#5d6871");
+  p.setColor(QPalette::Window, ground);
+  p.setColor(QPalette::Base, field);
+  p.setColor(QPalette::AlternateBase, ground);
+  p.setColor(QPalette::Button, control);
+  p.setColor(QPalette::ToolTipBase, control);
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText})
+    p.setColor(role, text);
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    p.setColor(QPalette::Disabled, role, faint);
+  p.setColor(QPalette::Highlight, QColor("#1d5f86"));
+  p.setColor(QPalette::HighlightedText, Qt::white);
+  return p;
+}
+
 int scaled(double pixels) {
   return static_cast<int>(std::lround(pixels * the_scale()));
 }

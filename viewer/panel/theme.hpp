@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QColor>
+#include <QPalette>
 #include <QString>
 
 #include "viewer/readouts.hpp"
@@ -14,6 +15,9 @@ QColor colour(const Rgb& rgb);
 QColor colour(Mood mood);
 /// The mark that goes with it: distinguishable in shape, too.
 QString mark(Mood mood);
+
+/// For the controls, drawn by Qt's Fusion style.
+QPalette dark_palette();
 
 /// Style sheet for everything; `scale` 1 is made for a 96 dpi screen at an arm's length.
 QString style_sheet(double scale);

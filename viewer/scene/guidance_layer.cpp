@@ -20,7 +20,7 @@ constexpr double kTubeRadius = 4.0, kTubeLength = 60.0, kTipRadius = 1.0;
 constexpr double kConeLength = 6.0;  ///< tube begins that far behind the tip, so that the tip can be seen
 constexpr double kArrowLength = 30.0;
 constexpr double kAxisAhead = 15.0;  ///< the axis is drawn through the tip, towards the surface
-constexpr double kGhost = 0.3;
+constexpr double kGhost = 0.3, kSeeThrough = 0.25;
 
 /// Puts +x of the source along `direction` with its origin at `origin`.
 vtkSmartPointer<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -61,7 +61,8 @@ void give_rod(vtkActor& actor, const Rgb& colour) {
 
 }  // namespace
 
-GuidanceLayer::GuidanceLayer(const std::function<void(vtkProp*)>& add_actor) {
+GuidanceLayer::GuidanceLayer(const std::function<void(vtkProp*)>& add_actor,
+                             const std::function<void(vtkProp*)>& add_tube) {
   give_rod(*tube_, palette::kHarvester);
   give_rod(*axis_line_, palette::kHarvester);
   vtkNew<vtkSphereSource> ball;
@@ -77,8 +78,8 @@ GuidanceLayer::GuidanceLayer(const std::function<void(vtkProp*)>& add_actor) {
   arrow->SetTipResolution(24);
   arrow->SetShaftResolution(16);
   give(*arrow_, *arrow, palette::kNormal);
-  for (vtkActor* actor : {tube_.Get(), tip_.Get(), axis_line_.Get(), arrow_.Get(), foot_.Get()})
-    add_actor(actor);
+  add_tube(tube_);
+  for (vtkActor* actor : {tip_.Get(), axis_line_.Get(), arrow_.Get(), foot_.Get()}) add_actor(actor);
 }
 
 void GuidanceLayer::set(const GuidanceInput& input) {
@@ -94,6 +95,7 @@ void GuidanceLayer::set_harvester(const GuidanceInput& input) {
     actor->GetProperty()->SetOpacity(input.harvester == Presence::ghost ? kGhost : 1.0);
   }
   if (!visible) return;
+  if (see_through_ && input.harvester == Presence::present) tube_->GetProperty()->SetOpacity(kSeeThrough);
   const Rgb& colour = input.on_target ? palette::kOnTarget : palette::kHarvester;
   tube_->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   tube_->SetUserMatrix(placement(input.tip + kConeLength * input.axis, input.axis, kTubeLength, kTubeRadius));
@@ -111,7 +113,7 @@ void GuidanceLayer::set_normal(const GuidanceInput& input) {
 }
 
 bool GuidanceLayer::harvester_ghosted() const {
-  return harvester_visible() && tube_->GetProperty()->GetOpacity() < 1.0;
+  return harvester_visible() && tip_->GetProperty()->GetOpacity() < 1.0;
 }
 
 }  // namespace linescope

@@ -24,7 +24,12 @@ struct GuidanceInput {
 
 class GuidanceLayer {
  public:
-  explicit GuidanceLayer(const std::function<void(vtkProp*)>& add_actor);
+  /// `add_tube` puts an actor into every view that does not look along it, `add_actor` into every view.
+  GuidanceLayer(const std::function<void(vtkProp*)>& add_actor,
+                const std::function<void(vtkProp*)>& add_tube);
+
+  /// Lets the tube be looked through, for a view from its handle.
+  void see_through(bool on) { see_through_ = on; }
 
   void set(const GuidanceInput& input);
   bool refresh() { return std::exchange(dirty_, false); }
@@ -39,7 +44,7 @@ class GuidanceLayer {
   void set_normal(const GuidanceInput& input);
 
   vtkNew<vtkActor> tube_, tip_, axis_line_, arrow_, foot_;
-  bool dirty_ = true;
+  bool dirty_ = true, see_through_ = false;
 };
 
 }  // namespace linescope

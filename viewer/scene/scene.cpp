@@ -2,6 +2,7 @@
 
 #include <vtkCamera.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace linescope {
 namespace {
 
 constexpr double kViewAngle = 30;     ///< degrees, vertical
-constexpr double kHarvesterEye = 70;  ///< mm from the tip
+constexpr double kHarvesterEye = 90;  ///< mm from the tip: behind the tube as drawn
 constexpr double kRegrowBy = 1.3;     ///< growth of a scan after which it is framed again
 
 using Place = std::array<double, 4>;  ///< left, bottom, right, top, 0..1
@@ -72,7 +73,11 @@ Scene::Scene(vtkRenderWindow& window) : window_(window) {
   };
   cloud_ = std::make_unique<CloudLayer>(add);
   surface_ = std::make_unique<SurfaceLayer>(add);
-  guidance_ = std::make_unique<GuidanceLayer>(add);
+  const auto add_tube = [this](vtkProp* prop) {
+    for (auto& r : renderers_)
+      if (r != &renderer(View::along_harvester)) r->AddViewProp(prop);
+  };
+  guidance_ = std::make_unique<GuidanceLayer>(add, add_tube);
   mouse_->may_turn = [this](vtkRenderer* r) { return r == &renderer(View::free); };
   mouse_->moved = [this](vtkRenderer* r) { operator_moved_ |= r == &renderer(View::free), dirty_ = true; };
   apply(looking_from({1, 1, 1}, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero(), 100),
@@ -111,6 +116,7 @@ std::vector<View> Scene::visible_views() const {
 
 void Scene::follow_harvester(bool follow) {
   follow_ = follow;
+  guidance_->see_through(follow);
   overlays_[0]->set_title(follow ? "Following the harvester" : kTitles[0]);
   dirty_ = true;
 }
@@ -158,14 +164,29 @@ void Scene::look_from(NamedView view) {
   set_view_pose(looking_from(from, any_up(from), centre, distance_to_see(std::max(radius, 20.0))));
 }
 
+Eigen::Vector3d Scene::long_axis() const {
+  const auto& points = cloud_->points();
+  const Eigen::Vector3d centre = extent().first;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 2048) {
+    const Eigen::Vector3d from = points[i].cast<double>() - centre;
+    spread += from * from.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+}
+
 void Scene::reset_view() {
   const auto [centre, radius] = extent();
   const Eigen::Vector3d out = cloud_->outward();
-  // A little from the side: straight down, depth cannot be seen.
-  const Eigen::Vector3d side = out.cross(any_up(out)).normalized();
-  const Eigen::Vector3d from = (out + 0.35 * side - 0.35 * out.cross(side)).normalized();
+  // The longer side lies across the screen, and the eye a little to the side: straight down, depth cannot be
+  // seen.
+  Eigen::Vector3d across = long_axis() - long_axis().dot(out) * out;
+  if (across.norm() < 0.1) across = out.cross(any_up(out));
+  across.normalize();
+  const Eigen::Vector3d up = out.cross(across);
   framed_radius_ = radius;
-  set_view_pose(looking_from(from, out.cross(side), centre, distance_to_see(std::max(radius, 15.0))));
+  set_view_pose(
+      looking_from(out + 0.3 * across - 0.6 * up, up, centre, distance_to_see(std::max(radius, 15.0))));
   operator_moved_ = false;
 }
 
@@ -197,10 +218,14 @@ void Scene::frame_first_time() {
     framed_ = false;
     return;
   }
-  // A growing scan stays in the picture until the operator takes the camera.
-  if (framed_ && (operator_moved_ || radius < kRegrowBy * framed_radius_)) return;
-  framed_ = true;
-  reset_view();
+  if (!std::exchange(framed_, true)) return reset_view();
+  // A growing scan stays in the picture until the operator takes the camera; the direction stays as it is.
+  if (operator_moved_ || radius < kRegrowBy * framed_radius_) return;
+  framed_radius_ = radius;
+  ViewPose pose = view_pose();
+  pose.target = extent().first;
+  pose.distance = distance_to_see(std::max(radius, 15.0));
+  apply(pose, *renderer(View::free).GetActiveCamera());
 }
 
 bool Scene::refresh() {

@@ -83,6 +83,7 @@ class Scene {
   void aim_axis_views();
   void aim_harvester_view(vtkRenderer& renderer);
   void frame_first_time();
+  Eigen::Vector3d long_axis() const;
 
   vtkRenderWindow& window_;
   std::array<vtkNew<vtkRenderer>, kViews> renderers_;

@@ -28,6 +28,11 @@ void style(vtkTextActor& text, double size, const Rgb& colour) {
   p.SetColor(colour[0], colour[1], colour[2]);
 }
 
+/// In pixels of the view, not of the window.
+void place(vtkTextActor& text, double x, double y) {
+  text.SetPosition(std::round(x), std::round(y));
+}
+
 /// Millimetres per pixel at the point the camera looks at.
 double millimetres_per_pixel(vtkRenderer& renderer) {
   vtkCamera& camera = *renderer.GetActiveCamera();
@@ -99,8 +104,8 @@ void ViewOverlay::set_scale(double scale) {
 
 void ViewOverlay::update() {
   const double height = renderer_.GetSize()[1];
-  title_->SetDisplayPosition(static_cast<int>(kMargin * scale_), static_cast<int>(height - 10 * scale_));
-  note_->SetDisplayPosition(static_cast<int>(kMargin * scale_), static_cast<int>(height - 30 * scale_));
+  place(*title_, kMargin * scale_, height - 10 * scale_);
+  place(*note_, kMargin * scale_, height - 30 * scale_);
   update_axes();
   update_bar();
 }
@@ -117,8 +122,7 @@ void ViewOverlay::update_axes() {
     // An axis that points at the eye has its name beside the origin instead of on it.
     const double reach = length + 10 * scale_, shown = std::hypot(x, y);
     const double nx = shown < 0.25 ? -0.35 : x, ny = shown < 0.25 ? -0.35 : y;
-    axis_names_[i]->SetDisplayPosition(static_cast<int>(middle + reach * nx),
-                                       static_cast<int>(middle + reach * ny));
+    place(*axis_names_[i], middle + reach * nx, middle + reach * ny);
   }
 }
 
@@ -134,7 +138,7 @@ void ViewOverlay::update_bar() {
   bar_.points->SetPoint(3, right, low + tick, 0);
   bar_.points->Modified();
   bar_text_->SetInput(fmt::format("{:g} mm", bar_mm_).c_str());
-  bar_text_->SetDisplayPosition(static_cast<int>(right), static_cast<int>(low + tick + 3 * scale_));
+  place(*bar_text_, right, low + tick + 3 * scale_);
 }
 
 }  // namespace linescope
