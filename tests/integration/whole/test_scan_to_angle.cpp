@@ -85,7 +85,16 @@ std::optional<PoseSample> sample_at(const SegmentReader& reader, int station, Na
   });
 }
 
-/// Eq 5.3 with the phantom's own normal under the tip, for the poses of that instant.
+/// Where the harvester's axis meets the phantom: along the axis by the distance that is certainly free, again
+/// and again.
+Eigen::Vector3d foot_of(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis,
+                        const twin::TwinTruth& truth) {
+  Eigen::Vector3d foot = tip;
+  for (int i = 0; i < 100; ++i) foot -= truth.distance(foot) * axis;
+  return foot;
+}
+
+/// Eq 5.3 with the phantom's own normal at the axis's foot, for the poses of that instant.
 std::optional<double> true_angle_deg(const SegmentReader& reader, const twin::TwinTruth& truth,
                                      const Calibration& calibration, Nanoseconds time) {
   const auto object = sample_at(reader, 1, time), harvester = sample_at(reader, 2, time);
@@ -95,7 +104,8 @@ std::optional<double> true_angle_deg(const SegmentReader& reader, const twin::Tw
       renamed<World, Harvester>(harvester->world_from_sensor);
   const Eigen::Vector3d tip = object_from_harvester * calibration.harvester.tip;
   const Eigen::Vector3d axis = object_from_harvester.rotate(calibration.harvester.axis);
-  return degrees_from_radians(std::acos(std::clamp(truth.normal(tip).dot(axis), -1.0, 1.0)));
+  return degrees_from_radians(
+      std::acos(std::clamp(truth.normal(foot_of(tip, axis, truth)).dot(axis), -1.0, 1.0)));
 }
 
 TEST_F(ScanToAngle, TheWindowShowsTheTrueAngle) {
