@@ -12,6 +12,7 @@ OpticsOptions ideal() {
   o.line.speckle_contrast = 0;
   o.line.sheet_reach_sigmas = 6;
   o.light.led_brightness = 0;
+  o.light.texture = 0;
   o.sensor.read_noise = 0;
   o.sensor.electrons_per_level = 0;
   o.sensor.bloom = 0;

@@ -13,6 +13,8 @@ constexpr int kCell = 4;                       // px between grid nodes
 constexpr double kFarthestWork = 40;           // mm; beyond it the line is too weak to care how far it moves
 const Vector3d kLaserColour{0.16, 1.0, 0.10};  // of 532 nm in the camera's blue, green, red
 
+constexpr int kGreen = 1;
+
 int nodes_for(int pixels) {
   return (pixels + kCell - 2) / kCell + 1;
 }
@@ -178,9 +180,10 @@ void Renderer::add_line_cell(int i, int j) {
       const double level = laser_level(ray, seen);
       if (!(level > 0)) continue;
       const double grain = speckle_factor(options_.optics.line, options_.seed, index_, u, v);
+      const double back = tissue_.albedo(middle_.rotation * seen.point + middle_.eye)[kGreen];
       auto& pixel = light_.at(u, v);
       for (int k = 0; k < 3; ++k) {
-        pixel[static_cast<std::size_t>(k)] += static_cast<float>(level * grain * kLaserColour[k]);
+        pixel[static_cast<std::size_t>(k)] += static_cast<float>(level * back * grain * kLaserColour[k]);
       }
     }
   }

@@ -37,7 +37,7 @@ Result<void> apply_noise_preset(TwinOptions& options, std::string_view name) {
                 fmt::format("no noise preset is called '{}': use ideal, manufacturer or thesis", name));
   }
   options.tracker = *tracker_noise_from_name(name);
-  options.optics = *optics_from_name(ideal ? "ideal" : name == "thesis" ? "full" : "clean");
+  options.optics = *optics_from_name(ideal ? "ideal" : "clean");
   if (ideal) options.instrument.lens.distortion = {};
   return {};
 }

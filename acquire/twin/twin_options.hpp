@@ -26,8 +26,9 @@ struct TwinOptions {
 };
 
 /// Noise of a whole experiment by one name. "ideal": optics ideal, tracker ideal, no lens distortion.
-/// "manufacturer": optics clean, tracker manufacturer (the demo's default). "thesis": optics full, tracker
-/// thesis.
+/// "manufacturer": optics clean, tracker manufacturer (the demo's default). "thesis": optics clean, tracker
+/// thesis. The sheet stays flat in all three: the bend that the prism must cause grows with the gap's square,
+/// and Table 4.1 shows no such growth (docs/twin.md); optics_from_name("full") has it.
 Result<void> apply_noise_preset(TwinOptions& options, std::string_view name);
 
 /// The demo: condyle, camera II, preset "manufacturer", scenario demo.

@@ -9,11 +9,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Near the axis a flat port magnifies by the medium's index: the lens behind it has a focal length that much
-// shorter, so that the picture's middle looks the same with and without the port.
+// Near the axis a flat port magnifies by the medium's index: a ray with slope s in the medium has slope n s
+// in air. The lens behind the port is the one that makes the same picture of those slopes, so that both
+// pictures agree in their middle.
 LensNumbers behind_port(LensNumbers lens, double medium_index) {
-  lens.fx /= medium_index;
-  lens.fy /= medium_index;
+  auto& [k1, k2, p1, p2, k3] = lens.distortion;
+  const double n = medium_index, n2 = n * n;
+  lens.fx /= n;
+  lens.fy /= n;
+  k1 /= n2;
+  k2 /= n2 * n2;
+  k3 /= n2 * n2 * n2;
+  p1 /= n;
+  p2 /= n;
   return lens;
 }
 

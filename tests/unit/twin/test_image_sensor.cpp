@@ -179,7 +179,7 @@ double lit_columns(const TwinOptions& options) {
 TEST(Trouble, MissingStretchesHideTheirShareOfTheLine) {
   TwinOptions options = quiet_sweep();
   const double all = lit_columns(options);
-  EXPECT_GT(all, 158);
+  EXPECT_GT(all, 150);
   options.optics.trouble.missing = 0.5;
   // 90 pictures hold some fifty independent stretches: one in seven by chance.
   EXPECT_NEAR(lit_columns(options) / all, 0.5, 0.15);
@@ -242,6 +242,23 @@ TEST(Trouble, BloodDarkensItsShareOfTheSurface) {
   // The sweep crosses only some ten patches of 4 mm: their share scatters.
   EXPECT_GT(static_cast<double>(blood) / seen, 0.2);
   EXPECT_LT(static_cast<double>(blood) / seen, 0.6);
+}
+
+TEST(Trouble, BloodSwallowsTheLaser) {
+  TwinOptions options = quiet_sweep();
+  options.hand.scenario = Scenario::still;
+  options.phantom = *phantom_from_name("plane");
+  options.optics.light.led_brightness = 0;
+  const auto brightest = [&] {
+    int most = 0;
+    const cv::Mat bgr = picture(options);
+    for (int v = 0; v < bgr.rows; ++v) most = std::max(most, green(bgr, 180, v));
+    return most;
+  };
+  EXPECT_GT(brightest(), 120);
+  options.optics.trouble.blood = 0.9;  // all but everywhere
+  options.seed = 3;
+  EXPECT_LT(brightest(), 20);
 }
 
 TEST(Trouble, ParticlesCoverTheLine) {

@@ -26,7 +26,7 @@ constexpr double kRounding = 0.025;
 
 // As bright as 8 bits allow at this gap.
 double bright_at(double gap) {
-  return 245 * gap / 15;
+  return 305 * gap / 15;
 }
 
 class PlaneAtGap : public testing::TestWithParam<double> {};
