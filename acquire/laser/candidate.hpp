@@ -1,6 +1,8 @@
 // Something in one profile that may be the line.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "acquire/laser/extracted_line.hpp"
@@ -8,16 +10,22 @@
 
 namespace linescope {
 
+/// Full width at half height of a Gaussian of sigma 1.
+inline constexpr float kFullWidthPerSigma = 2.3548F;
+
 struct Candidate {
   int profile = 0;
   float centre = 0;      ///< px along the profile
   float sigma = 0;       ///< px, of the Gaussian of the same width at half height
   float peak = 0;        ///< grey levels above the background, laser's channel
   float saturated = 0;   ///< px
-  bool clipped = false;  ///< the laser's channel is flat on top
   LightMix mix{};        ///< the light it was found in
   LightMix calm_mix{};   ///< LightWindow::calm_mix
   float structure = 0;   ///< LightWindow::structure
+  int light_at = 0;      ///< where CandidateList::light keeps the window it was found in
+  int light_begin = 0;   ///< pixel of the profile at the window's first element
+  int light_size = 0;    ///< px; 0: nothing is kept
+  bool clipped = false;  ///< the laser's channel is flat on top
   bool good = true;
   NoPoint fault = NoPoint::no_light;  ///< why not, unless good
 
@@ -29,16 +37,31 @@ struct Candidate {
     good = false;
     fault = reason;
   }
+
+  /// Rejects what is no line by its shape. `width`: full, px; `before`, `after`: px to the ends of the
+  /// profile.
+  void judge_shape(float width, int before, int after, const LineExtractorOptions& options) {
+    if (std::min(before, after) < options.border)
+      reject(NoPoint::at_border);
+    else if (saturated > static_cast<float>(options.max_saturated))
+      reject(NoPoint::saturated);
+    else if (width > static_cast<float>(options.max_width))
+      reject(NoPoint::too_wide);
+    else if (width < static_cast<float>(options.min_width))
+      reject(NoPoint::too_narrow);
+  }
 };
 
 /// Candidates of all profiles, profile by profile: those of profile p are [first[p], first[p + 1]).
 struct CandidateList {
   std::vector<Candidate> all;
   std::vector<int> first;
+  std::vector<std::int16_t> light;  ///< the light of all windows, one after the other
 
   void begin(int profiles) {
     all.clear();
     first.clear();
+    light.clear();
     first.reserve(static_cast<std::size_t>(profiles) + 1);
   }
   Candidate* begin_of(int profile) { return all.data() + first[static_cast<std::size_t>(profile)]; }

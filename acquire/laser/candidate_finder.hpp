@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "acquire/laser/candidate.hpp"
+#include "acquire/laser/colour_excess.hpp"
 #include "acquire/laser/hump.hpp"
-#include "acquire/laser/light_window.hpp"
 #include "acquire/laser/noise_meter.hpp"
 #include "acquire/laser/run_finder.hpp"
 
@@ -14,37 +14,46 @@ namespace linescope {
 
 /// Judges shape and colour of each run on its own; noise and neighbours come later. Rejected candidates are
 /// kept, with their fault, because somebody may want to know.
+///
+/// Every fourth profile of an undisturbed line is looked at closely. A profile between them whose only run
+/// lies where its neighbour's did, to two pixels and without saturation, takes over the neighbour's width and
+/// background.
 class CandidateFinder {
  public:
-  explicit CandidateFinder(const LineExtractorOptions& options) : options_(options) {}
+  explicit CandidateFinder(const LineExtractorOptions& options)
+      : options_(options), excess_(options.colour) {}
 
   /// Starts a picture. `colour` is the laser's, or mono for grey pictures; `scene` the mean of the picture
   /// without the laser, in the order of Profile's channels.
-  void begin(LaserColour colour, const ChannelMeans& scene) {
-    colour_ = colour;
-    scene_ = scene;
-  }
+  void begin(LaserColour colour, const ChannelMeans& scene);
 
-  /// Appends the candidates of one profile, in ascending order of their middle. `runs` are merged in place
-  /// where a white core separates them.
-  void find(const Profile& profile, int index, std::span<Run> runs, std::vector<Candidate>& out,
-            NoiseMeter& noise);
+  /// Appends the candidates of one profile, in ascending order of their middle. Profiles come in ascending
+  /// order. `runs` are merged in place where a white core separates them.
+  void find(const Profile& profile, int index, std::span<Run> runs, CandidateList& out, NoiseMeter& noise);
 
  private:
-  std::size_t merge_across_cores(const Profile& profile, std::span<Run> runs) const;
-  Candidate by_mean(const Profile& profile, Run run) const;
-  void by_shape(Run run, std::vector<Candidate>& out);
+  void close_look(Run run, CandidateList& out);
+  bool follow(const Profile& profile, int index, Run run, CandidateList& out);
   Candidate candidate_from(const Hump& hump) const;
   bool has_colour(const Hump& hump) const;
   bool rises_in_colour(const Hump& hump) const;
-  int excess(int i) const;
+  int excess(int i) const { return excess_.of(window_.lead(i), window_.value(1, i), window_.value(2, i)); }
+
+  /// What a following profile may rely on.
+  struct Neighbour {
+    int profile = -1;  ///< -1: none
+    Run run;
+    int candidate = 0;   ///< in CandidateList::all
+    int background = 0;  ///< grey levels
+    int followers = 0;   ///< since the last close look
+  };
 
   LineExtractorOptions options_;
-  LaserColour colour_ = LaserColour::mono;
-  ChannelMeans scene_{};
+  ColourExcess excess_;
   int length_ = 0;  ///< of the profile
   int index_ = 0;
   LightWindow window_;
+  Neighbour neighbour_;
 };
 
 }  // namespace linescope

@@ -16,6 +16,25 @@ float misfit(const Candidate& a, const Candidate& b, const LineExtractorOptions&
 
 }  // namespace
 
+bool Continuity::extend_single(CandidateList& list, int profile, const LineExtractorOptions& options) {
+  if (profile == 0) return false;
+  Candidate* const c = list.begin_of(profile);
+  const Candidate* const a = list.begin_of(profile - 1);
+  if (list.end_of(profile) - c != 1 || list.end_of(profile - 1) - a != 1 || !c->good || !a->good)
+    return false;
+  if (misfit(*a, *c, options) >= 1) return false;
+  continue_with(list, *a, *c);
+  return true;
+}
+
+void Continuity::continue_with(CandidateList& list, const Candidate& from, Candidate& to) {
+  to.piece = from.piece;
+  continued_[static_cast<std::size_t>(&from - list.all.data())] = 1;
+  Piece& piece = pieces_[static_cast<std::size_t>(to.piece)];
+  ++piece.count;
+  piece.peaks += to.peak;
+}
+
 /// Connects the candidates of one profile to those before it, best fit first; nothing is continued twice.
 void Continuity::extend(CandidateList& list, int profile, const LineExtractorOptions& options) {
   Candidate* const begin = list.begin_of(profile);
@@ -36,25 +55,20 @@ void Continuity::extend(CandidateList& list, int profile, const LineExtractorOpt
       }
     }
     if (best == nullptr) break;
-    best->piece = from->piece;
-    continued_[static_cast<std::size_t>(from - list.all.data())] = 1;
+    continue_with(list, *from, *best);
   }
   for (Candidate* c = begin; c != end; ++c) {
-    if (!c->good) continue;
-    if (c->piece < 0) {
-      c->piece = pieces();
-      pieces_.push_back({});
-    }
-    Piece& piece = pieces_[static_cast<std::size_t>(c->piece)];
-    ++piece.count;
-    piece.peaks += c->peak;
+    if (!c->good || c->piece >= 0) continue;
+    c->piece = pieces();
+    pieces_.push_back({1, c->peak});
   }
 }
 
 void Continuity::link(CandidateList& list, int profiles, const LineExtractorOptions& options) {
   pieces_.clear();
   continued_.assign(list.all.size(), 0);
-  for (int p = 0; p < profiles; ++p) extend(list, p, options);
+  for (int p = 0; p < profiles; ++p)
+    if (!extend_single(list, p, options)) extend(list, p, options);
   for (Candidate& c : list.all) {
     if (!c.good) continue;
     const Piece& piece = pieces_[static_cast<std::size_t>(c.piece)];

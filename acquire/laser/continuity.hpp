@@ -22,6 +22,9 @@ class Continuity {
     double peaks = 0;
   };
   void extend(CandidateList& candidates, int profile, const LineExtractorOptions& options);
+  /// The common case, one candidate after one; false: look closer.
+  bool extend_single(CandidateList& candidates, int profile, const LineExtractorOptions& options);
+  void continue_with(CandidateList& candidates, const Candidate& from, Candidate& to);
   std::vector<Piece> pieces_;
   std::vector<char> continued_;  ///< per candidate: something already goes on from it
 };

@@ -2,32 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace linescope {
 namespace {
 
 constexpr float kSmallest = 0.5F, kLargest = 5.2F, kRatio = 1.08F;  // sigmas of the tables, in bins
+constexpr float kStep = 1.0F / 64;
 constexpr float kBinned = 2.5F;  // sigma in bins that a wide line is reduced to
-constexpr int kLanes = 4;        // sums run in four lanes, which compilers turn into one vector
+constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+Lanes load(const float* p) {
+  Lanes v;
+  std::memcpy(&v, p, sizeof(v));
+  return v;
+}
+
+float sum(Lanes v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
 
 struct Sums {
   float weight = 0, moment = 0;
 };
 
 Sums correlate(const float* light, const float* weight, const float* moment, std::size_t n) {
-  std::array<float, kLanes> w{}, m{};
+  Lanes w{}, m{};
   for (std::size_t i = 0; i < n; i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      w[k] += light[i + k] * weight[i + k];
-      m[k] += light[i + k] * moment[i + k];
-    }
+    const Lanes l = load(light + i);
+    w += l * load(weight + i);
+    m += l * load(moment + i);
   }
-  return {(w[0] + w[1]) + (w[2] + w[3]), (m[0] + m[1]) + (m[2] + m[3])};
+  return {sum(w), sum(m)};
 }
 
-std::size_t padded_taps(int radius) {
-  const auto taps = static_cast<std::size_t>(2 * radius + 1);
-  return (taps + kLanes - 1) / kLanes * kLanes;
+/// To the nearest whole number; `x` is not negative.
+int nearest(float x) {
+  return static_cast<int>(x + 0.5F);
 }
 
 }  // namespace
@@ -37,109 +49,137 @@ GaussCentre::GaussCentre() {
     Kernel k;
     k.sigma = sigma;
     k.radius = static_cast<int>(std::ceil(3 * sigma));
-    const std::size_t taps = padded_taps(k.radius);
-    k.weight.assign(kPhases * taps, 0);
-    k.moment.assign(kPhases * taps, 0);
+    k.taps = (static_cast<std::size_t>(2 * k.radius + 1) + kLanes - 1) / kLanes * kLanes;
+    k.weight.assign(kPhases * k.taps, 0);
+    k.moment.assign(kPhases * k.taps, 0);
     for (std::size_t phase = 0; phase < kPhases; ++phase) {
       for (int i = -k.radius; i <= k.radius; ++i) {
         const float t = static_cast<float>(i) - static_cast<float>(phase) / kPhases;
         const float w = std::exp(-t * t / (2 * sigma * sigma));
-        const std::size_t at = phase * taps + static_cast<std::size_t>(i + k.radius);
+        const std::size_t at = phase * k.taps + static_cast<std::size_t>(i + k.radius);
         k.weight[at] = w;
         k.moment[at] = w * t;
-        k.power[phase] += w * w;
+        Kernel::Totals& total = k.totals[phase];
+        total.weight += w;
+        total.moment += w * t;
+        total.spread += w * t * t;
+        total.power += w * w;
       }
     }
     kernels_.push_back(std::move(k));
   }
+  for (float sigma = 0; sigma <= kLargest + kStep; sigma += kStep) {
+    const float step = std::log(std::max(sigma, kSmallest) / kSmallest) / std::log(kRatio);
+    index_.push_back(
+        static_cast<std::uint8_t>(std::min<int>(nearest(step), static_cast<int>(kernels_.size()) - 1)));
+  }
 }
 
 const GaussCentre::Kernel& GaussCentre::kernel_for(float sigma) const {
-  const float step = std::log(std::max(sigma, kSmallest) / kSmallest) / std::log(kRatio);
-  const auto index = static_cast<std::size_t>(step + 0.5F);
-  return kernels_[std::min(index, kernels_.size() - 1)];
+  const auto step = static_cast<std::size_t>(nearest(sigma / kStep));
+  return kernels_[index_[std::min(step, index_.size() - 1)]];
+}
+
+GaussCentre::Frame GaussCentre::frame_for(const Kernel& kernel, float start, int bin) const {
+  Frame f;
+  f.bin = bin;
+  f.begin = nearest(3.5F * kernel.sigma);
+  f.end = f.begin + std::max(2, static_cast<int>(1.5F * kernel.sigma));
+  const int half = std::max(f.end, kernel.radius + 2);
+  f.count = 2 * half + 1;
+  f.first = nearest(start) - half * bin - bin / 2;
+  return f;
+}
+
+bool GaussCentre::take(const StoredLight& stored, const Frame& f) {
+  const int from = f.first - stored.begin;
+  if (f.bin != 1 || from < 0 || from + f.count > static_cast<int>(stored.values.size())) return false;
+  const std::int16_t* light = stored.values.data() + from;
+  for (int i = 0; i < f.count; ++i) window_[static_cast<std::size_t>(i)] = static_cast<float>(light[i]);
+  return true;
 }
 
 /// Averages of `bin` pixels each; behind the ends of the profile the last pixel goes on.
-void GaussCentre::gather(const Profile& p, int first, int count, int bin, const LightMix& mix) {
-  window_.assign(static_cast<std::size_t>(count) + kLanes, 0);
-  const bool inside = first >= 0 && first + count * bin <= p.length;
-  const std::array share{1.0F, mix[0], mix[1]};
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (share[c] == 0) continue;
-    const std::uint8_t* const base = p.at[c];
-    const float scale = share[c] / static_cast<float>(bin);
-    for (int i = 0; i < count; ++i) {
-      int sum = 0;
-      for (int k = first + i * bin; k < first + (i + 1) * bin; ++k) {
-        sum += base[(inside ? k : std::clamp(k, 0, p.length - 1)) * p.step];
-      }
-      window_[static_cast<std::size_t>(i)] += scale * static_cast<float>(sum);
-    }
+void GaussCentre::gather(const Profile& p, const Frame& f, const LightMix& mix) {
+  std::fill_n(window_.begin(), f.count, 0.0F);
+  add_channel(p, f, 0, 1.0F);
+  if (mix[0] != 0) add_channel(p, f, 1, mix[0]);
+  if (mix[1] != 0) add_channel(p, f, 2, mix[1]);
+}
+
+void GaussCentre::add_channel(const Profile& p, const Frame& f, std::size_t channel, float share) {
+  const std::uint8_t* const base = p.at[channel];
+  float* out = window_.data();
+  const bool inside = f.first >= 0 && f.first + f.count * f.bin <= p.length;
+  if (inside && f.bin == 1) {
+    const std::uint8_t* next = base + f.first * p.step;
+    for (int i = 0; i < f.count; ++i, next += p.step) out[i] += share * static_cast<float>(*next);
+    return;
+  }
+  const float scale = share / static_cast<float>(f.bin);
+  for (int i = 0; i < f.count; ++i) {
+    int total = 0;
+    for (int k = f.first + i * f.bin; k < f.first + (i + 1) * f.bin; ++k)
+      total += base[std::clamp(k, 0, p.length - 1) * p.step];
+    out[i] += scale * static_cast<float>(total);
   }
 }
 
-/// Level of both flanks, `flank_begin` to `flank_end` bins from the middle; a slope only where the noise does
-/// not explain it.
-void GaussCentre::subtract_background(int flank_begin, int flank_end, float middle, float noise) {
-  const int last = static_cast<int>(window_.size()) - kLanes - 1, at = static_cast<int>(middle + 0.5F);
+/// Level of both flanks; a slope only where the noise does not explain it.
+GaussCentre::Background GaussCentre::background(const Frame& f, float middle, float noise) const {
+  const int at = nearest(middle), n = f.end - f.begin + 1;
+  const float* w = window_.data() + at;
   float left = 0, right = 0;
-  int n_left = 0, n_right = 0;
-  for (int d = flank_begin; d <= flank_end; ++d) {
-    if (at - d >= 0) left += window_[static_cast<std::size_t>(at - d)], ++n_left;
-    if (at + d <= last) right += window_[static_cast<std::size_t>(at + d)], ++n_right;
+  for (int d = f.begin; d <= f.end; ++d) {
+    left += w[-d];
+    right += w[d];
   }
-  if (n_left == 0 || n_right == 0) return;
-  left /= static_cast<float>(n_left);
-  right /= static_cast<float>(n_right);
-  const float mean = 0.5F * (left + right);
-  const float step = right - left,
-              doubt = 3 * noise * std::sqrt(2.0F / static_cast<float>(std::min(n_left, n_right)));
-  const float slope = std::abs(step) > doubt ? step / static_cast<float>(flank_begin + flank_end) : 0;
-  for (int i = 0; i <= last; ++i)
-    window_[static_cast<std::size_t>(i)] -= mean + slope * static_cast<float>(i - at);
+  const float share = 1.0F / static_cast<float>(n), rise = (right - left) * share;
+  const bool real = rise * rise > 9 * noise * noise * 2 * share;
+  const float slope = real ? rise / static_cast<float>(f.begin + f.end) : 0;
+  return {0.5F * (left + right) * share - slope * static_cast<float>(at), slope};
 }
 
-GaussFit GaussCentre::fit(const Profile& profile, float start, float sigma, float noise,
-                          const LightMix& mix) {
-  const int bin = std::max(1, static_cast<int>(sigma / kBinned));
-  const float in_bins = sigma / static_cast<float>(bin);
-  const Kernel& kernel = kernel_for(in_bins);
-  const int flank_begin = static_cast<int>(std::ceil(3.5F * in_bins)),
-            flank_end = flank_begin + static_cast<int>(std::ceil(1.5F * in_bins));
-  const int half = std::max(flank_end, kernel.radius + 2) + 1;
-  const int first = static_cast<int>(std::lround(start)) - half * bin - bin / 2;
-  gather(profile, first, 2 * half + 1, bin, mix);
-  const auto index_of = [&](float px) {
-    return (px - static_cast<float>(first) - 0.5F * static_cast<float>(bin - 1)) / static_cast<float>(bin);
-  };
-  subtract_background(flank_begin, flank_end, index_of(start), noise);
-
+/// Moves the Gaussian to where the light below it, less the background, is balanced.
+GaussFit GaussCentre::climb(const Kernel& kernel, const Frame& f, const Background& b, float start) const {
+  constexpr int kMostRounds = 6;
   GaussFit fit{start, 0, false};
-  const std::size_t taps = padded_taps(kernel.radius);
-  float at = index_of(start);
-  const float begin = at;
-  for (int round = 0; round < 6; ++round) {
-    const int ticks = static_cast<int>(std::lround(at * kPhases));
-    const int base = ticks / kPhases - kernel.radius;
+  const float begin = f.index_of(start), enough = std::max(1.0F / kPhases, 0.05F * kernel.sigma);
+  float at = begin;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const int ticks = at < 0 ? -1 : nearest(at * kPhases), first = ticks / kPhases - kernel.radius;
+    if (ticks < 0 || first < 0 || first + 2 * kernel.radius >= f.count) return fit;
     const auto phase = static_cast<std::size_t>(ticks % kPhases);
-    if (ticks < 0 || base < 0 || base + static_cast<int>(taps) > static_cast<int>(window_.size())) return fit;
-    const Sums s = correlate(window_.data() + base, kernel.weight.data() + phase * taps,
-                             kernel.moment.data() + phase * taps, taps);
-    if (!(s.weight > 0)) return fit;
+    const Kernel::Totals& total = kernel.totals[phase];
+    const std::size_t row = phase * kernel.taps;
+    const Sums s = correlate(window_.data() + first, kernel.weight.data() + row, kernel.moment.data() + row,
+                             kernel.taps);
+    const float place = static_cast<float>(ticks) / kPhases, level = b.level + b.slope * place;
+    const float weight = s.weight - level * total.weight - b.slope * total.moment;
+    const float moment = s.moment - level * total.moment - b.slope * total.spread;
+    if (!(weight > 0)) return fit;
     // Line and kernel are equally wide: the mean sees half of the offset.
-    const float offset = 2 * s.moment / s.weight;
-    at = static_cast<float>(ticks) / kPhases + std::clamp(offset, -in_bins, in_bins);
-    fit.amplitude = s.weight / kernel.power[phase];
-    if (round > 0 && std::abs(offset) < 1.0F / kPhases) {
-      fit.settled = std::abs(at - begin) <= 2 * in_bins;
-      break;
-    }
+    const float offset = 2 * moment / weight;
+    at = place + std::clamp(offset, -kernel.sigma, kernel.sigma);
+    if (std::abs(offset) > enough) continue;
+    fit.amplitude = weight / total.power;
+    fit.settled = std::abs(at - begin) <= 2 * kernel.sigma;
+    if (fit.settled) fit.centre = f.px_of(at);
+    return fit;
   }
-  if (fit.settled)
-    fit.centre =
-        static_cast<float>(first) + 0.5F * static_cast<float>(bin - 1) + at * static_cast<float>(bin);
   return fit;
+}
+
+GaussFit GaussCentre::fit(const Profile& profile, float start, float sigma, float noise, const LightMix& mix,
+                          const StoredLight& stored) {
+  const int bin = std::max(1, static_cast<int>(sigma / kBinned));
+  const Kernel& kernel = kernel_for(sigma / static_cast<float>(bin));
+  const Frame frame = frame_for(kernel, start, bin);
+  const auto room = static_cast<std::size_t>(frame.count) + kLanes;
+  if (window_.size() < room) window_.resize(room);
+  if (!take(stored, frame)) gather(profile, frame, mix);
+  std::fill_n(window_.begin() + frame.count, kLanes, 0.0F);
+  return climb(kernel, frame, background(frame, frame.index_of(start), noise), start);
 }
 
 }  // namespace linescope

@@ -1,6 +1,7 @@
 #include "acquire/laser/hump.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace linescope {
 namespace {
@@ -9,10 +10,11 @@ namespace {
 /// merge_gap.
 int reach(const LightWindow& w, int peak, int level, int step, int merge_gap) {
   int last = peak;
-  for (int i = peak, hole = 0; i >= 0 && i < w.size() && hole <= merge_gap; i += step) {
+  const int end = step < 0 ? -1 : w.size();
+  for (int i = peak, hole = 0; i != end && hole <= merge_gap; i += step) {
     const bool above = w.light(i) >= level;
     hole = above ? 0 : hole + 1;
-    if (above) last = i;
+    last = above ? i : last;
   }
   return last;
 }
@@ -25,14 +27,14 @@ float beyond(const LightWindow& w, int level, int inside, int outside) {
 }
 
 float mean_above(const LightWindow& w, const Hump& h) {
-  long sum = 0, moment = 0;
+  std::int64_t sum = 0, moment = 0;
   for (int i = h.first; i <= h.last; ++i) {
     const int light = std::max(0, w.light(i) - h.level);
     sum += light;
-    moment += static_cast<long>(light) * (i - h.first);
+    moment += std::int64_t{light} * (i - h.peak);
   }
   if (sum == 0) return static_cast<float>(h.peak);
-  return static_cast<float>(h.first) + static_cast<float>(moment) / static_cast<float>(sum);
+  return static_cast<float>(h.peak) + static_cast<float>(moment) / static_cast<float>(sum);
 }
 
 }  // namespace
@@ -44,7 +46,8 @@ int brightest(const LightWindow& w, int from, int to, int box) {
   int best = sum, at = from;
   for (int i = from + box; i < to; ++i) {
     sum += w.light(i) - w.light(i - box);
-    if (sum > best) best = sum, at = i - box + 1;
+    at = sum > best ? i - box + 1 : at;
+    best = std::max(best, sum);
   }
   return at + box / 2;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "acquire/laser/picture_view.hpp"
@@ -25,17 +26,21 @@ using ChannelMeans = std::array<float, 3>;
 
 class LightWindow {
  public:
-  /// Reads the run and some surroundings. `colour` says which channels may be subtracted (mono: none),
-  /// `scene` is the mean of the picture without the laser.
-  void read(const Profile& profile, Run run, LaserColour colour, const ChannelMeans& scene,
-            int saturation_level);
+  /// Starts a picture. `colour` says which channels may be subtracted (mono: none), `scene` is the mean of
+  /// the picture without the laser.
+  void start(LaserColour colour, const ChannelMeans& scene, int saturation_level);
+
+  /// Reads the run and some surroundings.
+  void read(const Profile& profile, Run run);
 
   int begin() const { return begin_; }  ///< pixel of the profile at index 0
-  int size() const { return static_cast<int>(light_.size()); }
-  int light(int i) const { return light_[static_cast<std::size_t>(i)]; }
-  int channel(int c, int i) const {
-    return channels_[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)];
-  }
+  int size() const { return size_; }
+  int lead(int i) const { return lead_[static_cast<std::size_t>(i)]; }     ///< the laser's channel
+  int light(int i) const { return light_[static_cast<std::size_t>(i)]; }   ///< the mix
+  int value(int c, int i) const { return profile_.value(c, begin_ + i); }  ///< any channel
+  std::span<const std::int16_t> light() const { return {light_.data(), static_cast<std::size_t>(size_)}; }
+  int background() const { return background_; }  ///< of the light: the brighter flank
+  bool clipped() const { return clipped_; }
   const LightMix& mix() const { return mix_; }
 
   /// The mix that takes the ambient light out, and how much structure (grey levels) the subtracted channel
@@ -43,32 +48,37 @@ class LightWindow {
   /// it pays for the last step.
   const LightMix& calm_mix() const { return calm_mix_; }
   float structure() const { return structure_; }
-  bool clipped() const { return clipped_; }
-  int background() const { return background_; }  ///< of the light: the brighter flank
 
-  /// The few pixels at both ends of the window.
-  int flank() const { return flank_; }  ///< how many at each end
-  const ChannelMeans& flanks() const { return flanks_; }
+  /// How many pixels at each end count as surroundings, and their means.
+  int flank() const { return flank_; }
+  ChannelMeans flanks() const;
 
   /// What white looks like here: the flanks, or the whole scene where these are much darker than the run
   /// between them (a bright patch among dark ones).
-  const ChannelMeans& ambient() const { return ambient_; }
+  ChannelMeans ambient() const { return patch_ ? scene_ : flanks(); }
 
  private:
-  void gather(const Profile& profile, Run run);
-  void choose_mix(Run run, LaserColour colour, const ChannelMeans& scene, int saturation_level);
-  int calmest_channel(const ChannelMeans& inside, LaserColour colour) const;
-  ChannelMeans means(Run run) const;
-  float range(int c) const;
+  using Bytes = std::vector<std::uint8_t>;
+  void gather(int channel, Bytes& out) const;
+  void pick_calm_channel(Run run);
+  void judge(Run run);
   void blend();
+  float flank_mean(const Bytes& bytes) const;
+  float run_mean(const Bytes& bytes, Run run) const;
 
-  int begin_ = 0, flank_ = 0, background_ = 0;
-  bool clipped_ = false;
+  std::array<bool, 3> lit_{};
+  ChannelMeans scene_{};
+  int saturation_level_ = 255;
+
+  Profile profile_;
+  int begin_ = 0, size_ = 0, flank_ = 0, background_ = 0;
+  int calm_channel_ = 0;  ///< 0: none
+  bool clipped_ = false, patch_ = false;
   float structure_ = 0;
   LightMix mix_{}, calm_mix_{};
-  ChannelMeans flanks_{}, ambient_{};
-  std::array<std::vector<int>, 3> channels_;
-  std::vector<int> light_;
+  // As long as the longest window so far, rounded up; the loops over them run in whole vectors.
+  Bytes lead_, calm_;
+  std::vector<std::int16_t> light_;
 };
 
 }  // namespace linescope

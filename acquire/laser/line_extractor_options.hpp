@@ -25,15 +25,17 @@ struct LineExtractorOptions {
   ProfileAxis axis = ProfileAxis::column;
   CentreMethod centre = CentreMethod::gauss_weighted;
 
-  // Where the line may be. A pixel is looked at when it passes one of the two tests.
-  int colour_threshold = 24;  ///< grey levels of colour excess (laser_colour.hpp); 1..254
+  // Where the line may be: a pixel is looked at when it passes one of two tests. One asks for colour excess
+  // (laser_colour.hpp). The other asks for a ridge, brighter than both sides in the laser's channel; it finds
+  // lines whose colour drowns in ambient light or in saturation, and is the only one for mono. The weighted
+  // mean knows only the first.
+  int colour_threshold = 24;  ///< grey levels of excess; 1..254
   int ridge_threshold =
-      16;  ///< grey levels brighter than both sides in the laser's channel; 0 switches it off; 0..254.
-           ///< It finds lines whose colour drowns in ambient light or in saturation.
-  int ridge_reach = 24;        ///< px; where "both sides" are: at least the line's width; 2..256
-  double colour_ratio = 1.2;   ///< the light that a ridge adds is at least this much more laser-coloured than
-                               ///< its surroundings; 1..10
-  int merge_gap = 3;           ///< px; pieces of one profile closer than this are one candidate; 0..32
+      12;                ///< grey levels above both sides, more in noisy pictures; 0 switches it off; 0..254
+  int ridge_reach = 24;  ///< px to the sides: at least twice the line's width; 2..256
+  double colour_ratio =
+      1.2;            ///< what a ridge adds is this much more laser-coloured than its surroundings; 1..10
+  int merge_gap = 3;  ///< px; pieces of one profile closer than this are one candidate; 0..32
   int saturation_level = 245;  ///< grey levels from which a channel counts as saturated; 128..255
 
   // What a point of the line must look like.
@@ -42,15 +44,14 @@ struct LineExtractorOptions {
   int max_saturated = 60;   ///< px; a longer saturated plateau hides where the middle is
   double min_snr = 4.0;     ///< peak above the background over the picture's noise
   double relative_threshold =
-      0.1;         ///< peak over the picture's strong peaks (95th percentile); 0 for any; 0..0.95
-  int border = 1;  ///< px; a line that reaches this close to the end of its profile may be cut off
+      0.05;        ///< peak over the picture's strong peaks (95th percentile); 0 for any; 0..0.95
+  int border = 1;  ///< px; a line this close to the end of its profile may be cut off
 
   // What makes it a line: neighbours.
-  int min_run = 8;        ///< profiles; a shorter connected piece is a glint
-  double max_step = 4.0;  ///< px from one profile to the next within a piece
-  int max_gap = 4;        ///< profiles that may be missing within a piece; 0..64
-  double ambiguity =
-      0.95;  ///< a rival with more than this fraction of the support makes the profile ambiguous; 0.1..1
+  int min_run = 8;          ///< profiles; a shorter connected piece is a glint
+  double max_step = 4.0;    ///< px from one profile to the next within a piece
+  int max_gap = 4;          ///< profiles that may be missing within a piece; 0..64
+  double ambiguity = 0.95;  ///< a rival with more than this fraction of the support: ambiguous; 0.1..1
 };
 
 /// The first impossible value in one sentence.

@@ -83,4 +83,11 @@ void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint
   for (int x = 0; x < picture.width; x += kMaskGroup) *words++ = mask_detail::mark_group(picture, rule, y, x);
 }
 
+RowMarker fastest_row_marker(const PictureView& picture, const MaskRule& rule) {
+  if (picture.channels != 3) return &mark_row;
+  if (const RowMarker m = mask_detail::avx512_row_marker(rule)) return m;
+  if (const RowMarker m = mask_detail::avx2_row_marker(rule)) return m;
+  return &mark_row;
+}
+
 }  // namespace linescope

@@ -34,7 +34,8 @@ using RowMarker = void (*)(const PictureView& picture, const MaskRule& rule, int
 /// Plain C++, the definition of what is marked.
 void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words);
 
-/// The same marks by AVX2 for this rule, or mark_row where the processor or the picture does not allow it.
+/// The same marks by the longest vectors that the processor has; mark_row for grey pictures and other
+/// processors.
 RowMarker fastest_row_marker(const PictureView& picture, const MaskRule& rule);
 
 }  // namespace linescope

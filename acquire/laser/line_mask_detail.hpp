@@ -16,6 +16,10 @@ struct Sides {
 /// Sides for the group of pixels that starts at x (a multiple of kMaskGroup).
 Sides sides_of_group(const PictureView& picture, const MaskRule& rule, int y, int x);
 
+/// Markers for BGR pictures, or nothing where the processor cannot run them.
+RowMarker avx2_row_marker(const MaskRule& rule);
+RowMarker avx512_row_marker(const MaskRule& rule);
+
 /// Marks of the group that starts at x, at most to the end of the row.
 std::uint32_t mark_group(const PictureView& picture, const MaskRule& rule, int y, int x);
 

@@ -16,6 +16,9 @@ class NoiseMeter {
   /// Pixels [first, last] of the profile are background; what lies outside the profile is left out.
   void add(const Profile& profile, int first, int last);
 
+  /// Samples a few stretches of rows all over the picture: a first idea before anything is known of the line.
+  void add_sparsely(const PictureView& picture, int lead);
+
   /// Standard deviation in grey levels by the median of the differences, which edges and texture hardly move;
   /// at least 0.3, the rounding to whole grey levels, also when nothing was added.
   float sigma() const;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace linescope {
 namespace {
 
-constexpr int kAmbientRows = 8;  // one row in this many, and one pixel of each group in it
+constexpr std::int16_t kNone = -1000;  // so long before the picture that any mark begins a run
+constexpr int kAmbientRows = 8;        // one row in this many, and one pixel of each group in it
 
 }  // namespace
 
@@ -21,7 +23,8 @@ void RunFinder::sample_ambient(const PictureView& picture, int y) {
   }
 }
 
-void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker) {
+void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker,
+                     bool want_ambient) {
   const bool columns = rule.axis == ProfileAxis::column;
   const auto profiles = static_cast<std::size_t>(profile_count(picture, rule.axis));
   const int words = mask_words(picture.width);
@@ -32,34 +35,52 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
   words_.resize(static_cast<std::size_t>(words));
   runs_.resize(profiles * kMostRuns);
   count_.assign(profiles, 0);
-  if (columns) open_.assign(profiles, Run{-1, -1});
+  if (columns) {
+    words_before_.assign(words_.size(), 0);
+    open_first_.resize(profiles);
+    open_last_.assign(profiles, kNone);
+  }
   for (int y = 0; y < picture.height; ++y) {
     marker(picture, rule, y, words_.data());
     columns ? take_columns(y, words) : take_row(y, words);
-    if (y % kAmbientRows == 0) sample_ambient(picture, y);
+    if (want_ambient && y % kAmbientRows == 0) sample_ambient(picture, y);
+    if (columns) std::swap(words_, words_before_);
   }
-  for (std::size_t c = 0; c < 3; ++c) {
+  if (columns) close_columns(picture.height);
+  for (std::size_t c = 0; c < 3; ++c)
     ambient_[c] =
         ambient_count_ > 0 ? static_cast<float>(ambient_sum_[c]) / static_cast<float>(ambient_count_) : 0;
-  }
-  if (!columns) return;
-  for (std::size_t x = 0; x < profiles; ++x)
-    if (open_[x].first >= 0) close(static_cast<int>(x), open_[x]);
 }
 
+/// Only where marks begin and end something happens, not at every marked pixel.
 void RunFinder::take_columns(int y, int words) {
   for (int w = 0; w < words; ++w) {
-    for (std::uint32_t bits = words_[static_cast<std::size_t>(w)]; bits != 0; bits &= bits - 1) {
-      const int x = w * kMaskGroup + std::countr_zero(bits);
-      Run& run = open_[static_cast<std::size_t>(x)];
-      if (run.first >= 0 && y - run.last > gap_ + 1) {
-        close(x, run);
-        run.first = -1;
-      }
-      if (run.first < 0) run.first = y;
-      run.last = y;
-    }
+    const std::uint32_t now = words_[static_cast<std::size_t>(w)],
+                        before = words_before_[static_cast<std::size_t>(w)];
+    if (now == before) continue;
+    const int x = w * kMaskGroup;
+    for (std::uint32_t ends = before & ~now; ends != 0; ends &= ends - 1)
+      open_last_[static_cast<std::size_t>(x + std::countr_zero(ends))] = static_cast<std::int16_t>(y - 1);
+    for (std::uint32_t begins = now & ~before; begins != 0; begins &= begins - 1)
+      begin_stretch(x + std::countr_zero(begins), y);
   }
+}
+
+void RunFinder::begin_stretch(int x, int y) {
+  std::int16_t& first = open_first_[static_cast<std::size_t>(x)];
+  const std::int16_t last = open_last_[static_cast<std::size_t>(x)];
+  if (y - last <= gap_ + 1) return;
+  if (last != kNone) close(x, {first, last});
+  first = static_cast<std::int16_t>(y);
+}
+
+void RunFinder::close_columns(int height) {
+  for (std::size_t w = 0; w < words_before_.size(); ++w)
+    for (std::uint32_t open = words_before_[w]; open != 0; open &= open - 1)
+      open_last_[w * kMaskGroup + static_cast<std::size_t>(std::countr_zero(open))] =
+          static_cast<std::int16_t>(height - 1);
+  for (std::size_t x = 0; x < open_last_.size(); ++x)
+    if (open_last_[x] != kNone) close(static_cast<int>(x), {open_first_[x], open_last_[x]});
 }
 
 void RunFinder::take_row(int y, int words) {
@@ -74,8 +95,8 @@ void RunFinder::take_row(int y, int words) {
         close(y, run);
         run.first = -1;
       }
-      if (run.first < 0) run.first = x;
-      run.last = x + length - 1;
+      if (run.first < 0) run.first = static_cast<std::int16_t>(x);
+      run.last = static_cast<std::int16_t>(x + length - 1);
       bits = start + length >= kMaskGroup ? 0 : bits & (~std::uint32_t{0} << (start + length));
     }
   }

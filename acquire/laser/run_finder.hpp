@@ -12,8 +12,8 @@ namespace linescope {
 
 /// Marked pixels first..last of a profile, both included, holes of at most merge_gap pixels between them.
 struct Run {
-  int first = 0;
-  int last = 0;
+  std::int16_t first = 0;
+  std::int16_t last = 0;
   int length() const { return last - first + 1; }
 };
 
@@ -24,7 +24,9 @@ class RunFinder {
   /// More are dropped (the shortest first) and counted: a picture with that many has no clear line there.
   static constexpr int kMostRuns = 8;
 
-  void find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker);
+  /// `want_ambient`: fill ambient() too.
+  void find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker,
+            bool want_ambient);
 
   std::span<Run> runs(int profile) {
     const auto p = static_cast<std::size_t>(profile);
@@ -39,6 +41,8 @@ class RunFinder {
 
  private:
   void take_columns(int y, int words);
+  void begin_stretch(int x, int y);
+  void close_columns(int height);
   void take_row(int y, int words);
   void close(int profile, Run run);
   void sample_ambient(const PictureView& picture, int y);
@@ -49,7 +53,10 @@ class RunFinder {
   std::uint64_t ambient_count_ = 0;
   std::array<float, 3> ambient_{};
   std::vector<std::uint32_t> words_;
-  std::vector<Run> open_;  ///< per column: the run that may still grow; first < 0 for none
+  // Columns: marks of the row before, and per column the run that may still grow (last: kNone before the
+  // first).
+  std::vector<std::uint32_t> words_before_;
+  std::vector<std::int16_t> open_first_, open_last_;
   std::vector<Run> runs_;
   std::vector<int> count_;
 };

@@ -1,0 +1,106 @@
+// The first look, 64 pixels at a time: line_mask_avx2.cpp with vectors twice as long and comparisons that
+// give bits.
+#include "acquire/laser/line_mask_vector.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include <bit>
+
+namespace linescope {
+namespace {
+
+#define LINESCOPE_AVX512 __attribute__((target("avx512f,avx512bw,bmi2")))
+#define LINESCOPE_AVX512_INLINE __attribute__((target("avx512f,avx512bw,bmi2"), always_inline)) inline
+
+using mask_detail::lanes_of;
+using mask_detail::Sides;
+
+LINESCOPE_AVX512_INLINE __m512i load(const std::uint8_t* p) {
+  return _mm512_loadu_si512(p);
+}
+
+/// Colour excess, in the lanes of the leading channel.
+template <unsigned On>
+LINESCOPE_AVX512_INLINE __m512i excess(const std::uint8_t* q) {
+  const __m512i b = load(q + mask_detail::from_lead(On, 0)), g = load(q + mask_detail::from_lead(On, 1)),
+                r = load(q + mask_detail::from_lead(On, 2));
+  if constexpr (On == 1) return _mm512_subs_epu8(b, _mm512_max_epu8(g, r));
+  if constexpr (On == 2) return _mm512_subs_epu8(g, _mm512_max_epu8(b, r));
+  if constexpr (On == 3) return _mm512_subs_epu8(_mm512_min_epu8(b, g), r);
+  if constexpr (On == 4) return _mm512_subs_epu8(r, _mm512_max_epu8(b, g));
+  if constexpr (On == 5) return _mm512_subs_epu8(_mm512_min_epu8(b, r), g);
+  if constexpr (On == 6) return _mm512_subs_epu8(_mm512_min_epu8(g, r), b);
+  return _mm512_min_epu8(b, _mm512_min_epu8(g, r));
+}
+
+struct Thresholds {
+  __m512i colour, ridge;  ///< less one: a lane passes when it is greater
+};
+
+/// Bits of the lanes, among those wanted, where the 64 bytes at q pass one of the tests.
+template <unsigned On, bool Ridge>
+LINESCOPE_AVX512_INLINE std::uint64_t passes(const std::uint8_t* q, std::uint64_t lanes, const Sides& s,
+                                             const Thresholds& t) {
+  std::uint64_t bits = _mm512_mask_cmpgt_epu8_mask(lanes, excess<On>(q), t.colour);
+  if constexpr (Ridge) {
+    const __m512i rise = _mm512_subs_epu8(load(q), _mm512_max_epu8(load(q + s.before), load(q + s.after)));
+    bits |= _mm512_mask_cmpgt_epu8_mask(lanes, rise, t.ridge);
+  }
+  return bits;
+}
+
+struct MarkAvx512 {
+  static constexpr int kGroups = 2;
+
+  /// `q`: first byte of the first pixel.
+  template <unsigned On, bool Ridge>
+  LINESCOPE_AVX512 static int row(const std::uint8_t* q, const MaskRule& rule, const Sides& sides, int groups,
+                                  std::uint32_t* words) {
+    constexpr int kLead = mask_detail::lead_of(On);
+    constexpr std::uint64_t kLanes0 = lanes_of<std::uint64_t>(kLead, 0),
+                            kLanes1 = lanes_of<std::uint64_t>(kLead, 64),
+                            kLanes2 = lanes_of<std::uint64_t>(kLead, 128);
+    constexpr int kFirst1 = std::popcount(kLanes0), kFirst2 = kFirst1 + std::popcount(kLanes1);
+    const Thresholds t{_mm512_set1_epi8(static_cast<char>(rule.colour_threshold - 1)),
+                       _mm512_set1_epi8(static_cast<char>(rule.ridge_threshold - 1))};
+    const std::uint8_t* const ahead =
+        q + mask_detail::kPrefetch + (Ridge && sides.after > 0 ? sides.after : 0);
+    int group = 0;
+    for (std::ptrdiff_t at = 0; group + kGroups <= groups;
+         group += kGroups, at += kGroups * mask_detail::kGroupBytes) {
+      for (int line = 0; line < 3; ++line)
+        _mm_prefetch(reinterpret_cast<const char*>(ahead + at + 64 * line), _MM_HINT_T0);
+      const std::uint64_t b0 = passes<On, Ridge>(q + at, kLanes0, sides, t),
+                          b1 = passes<On, Ridge>(q + at + 64, kLanes1, sides, t),
+                          b2 = passes<On, Ridge>(q + at + 128, kLanes2, sides, t);
+      std::uint64_t pixels = 0;
+      if ((b0 | b1 | b2) != 0)
+        pixels =
+            _pext_u64(b0, kLanes0) | _pext_u64(b1, kLanes1) << kFirst1 | _pext_u64(b2, kLanes2) << kFirst2;
+      words[group] = static_cast<std::uint32_t>(pixels);
+      words[group + 1] = static_cast<std::uint32_t>(pixels >> 32);
+    }
+    return group;
+  }
+};
+
+}  // namespace
+
+RowMarker mask_detail::avx512_row_marker(const MaskRule& rule) {
+  const bool known = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                     __builtin_cpu_supports("bmi2");
+  return known ? row_marker_of<MarkAvx512>(rule) : nullptr;
+}
+
+}  // namespace linescope
+
+#else
+
+namespace linescope {
+RowMarker mask_detail::avx512_row_marker(const MaskRule&) {
+  return nullptr;
+}
+}  // namespace linescope
+
+#endif
