@@ -170,6 +170,7 @@ AngleReadout angle_readout(const ViewState& state, Nanoseconds now, const Tolera
     return out;
   }
   const NavigationView& n = *state.navigation;
+  out.pose_time = std::min(n.harvester_time, n.object_time);
   out.angle_deg = degrees_from_radians(n.angle);
   out.angle = number(fmt::format("{:.1f}°", out.angle_deg));
   out.interval = interval_readout(n);

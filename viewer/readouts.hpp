@@ -28,10 +28,11 @@ struct Readout {
 };
 
 struct AngleReadout {
-  Readout angle;     ///< "12.3°"
-  Readout interval;  ///< "95 %: 11.0 – 13.9°"
-  Readout distance;  ///< "1.2 mm"
-  Readout depth;     ///< along the harvester's axis
+  Readout angle;              ///< "12.3°"
+  Readout interval;           ///< "95 %: 11.0 – 13.9°"
+  Readout distance;           ///< "1.2 mm"
+  Readout depth;              ///< along the harvester's axis
+  Nanoseconds pose_time = 0;  ///< of the oldest pose the angle rests on
   bool in_tolerance = false;
   double angle_deg = 0;  ///< meaningful when not blank
 };

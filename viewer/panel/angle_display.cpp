@@ -39,6 +39,7 @@ void AngleDisplay::show_angle(const AngleReadout& readout) {
   const QString reason = QString::fromStdString(readout.angle.reason);
   const QString interval =
       QString::fromStdString(readout.interval.blank() ? "" : "95 %:  " + readout.interval.text);
+  pose_time_ = readout.pose_time;
   if (text == shown_ && reason == reason_ && interval == interval_ && in_tolerance_ == readout.in_tolerance)
     return;
   shown_ = text;

@@ -18,6 +18,8 @@ class AngleDisplay : public QFrame {
 
   const QString& shown() const { return shown_; }
   const QString& reason() const { return reason_; }
+  /// Of the poses the digits on the screen rest on.
+  Nanoseconds pose_time() const { return pose_time_; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -26,6 +28,7 @@ class AngleDisplay : public QFrame {
   int fitting_size(QFont font, int width) const;
 
   QString shown_, reason_, interval_;
+  Nanoseconds pose_time_ = 0;
   bool in_tolerance_ = false;
   double numeral_size_ = 60;
   QElapsedTimer changed_;

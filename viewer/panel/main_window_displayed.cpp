@@ -58,7 +58,7 @@ QJsonObject MainWindow::displayed_state() const {
       {"depth", json(angle.depth)},
       {"in_tolerance", angle.in_tolerance},
       {"gap", json(gap_readout(live, now))},
-      {"pose_time_ns", QString::number(state_.navigation->harvester_time)},
+      {"pose_time_ns", QString::number(angle_->pose_time())},
       {"tools", QJsonObject{{"endoscope", json(tool_status(live, ToolRole::endoscope, now))},
                             {"object", json(tool_status(live, ToolRole::object, now))},
                             {"harvester", json(tool_status(live, ToolRole::harvester, now))},
