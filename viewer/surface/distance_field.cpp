@@ -9,10 +9,11 @@
 namespace linescope {
 namespace {
 
-// Fixed point: a patch weighs at most 2^16 (a column holds more points than that only after hundreds of
-// passes), distances, centres and deviations have 2^20 steps per interval, normals 2^16 per unit: 64 bits
-// hold sums of thousands of patches.
-constexpr std::int64_t kMaxWeight = 1 << 16;
+// Fixed point: weights in sixteenths of a point, at most 2^14 points (more only after some twenty passes over
+// a place), distances, centres and deviations in 2^-20 intervals, normals in 2^-16: 64 bits hold the sums of
+// thousands of patches.
+constexpr double kWeightUnit = 16;
+constexpr std::int64_t kMaxWeight = 1 << 18;
 constexpr double kDistanceUnit = 1 << 20;
 constexpr double kNormalUnit = 1 << 16;
 
@@ -21,8 +22,10 @@ constexpr double kSideAgreement =
 constexpr float kMaxStep =
     1.6f;  // intervals; distances of neighbouring vertices differ by less on one surface
 
+// Rounds to the nearest; std::llround is a call into the library.
 std::int64_t fixed(double value, double unit) {
-  return std::llround(value * unit);
+  const double scaled = value * unit;
+  return static_cast<std::int64_t>(scaled + (scaled < 0 ? -0.5 : 0.5));
 }
 
 // One patch's say about its four columns of vertices.
@@ -33,9 +36,12 @@ struct Stamp {
   std::int64_t points;
 };
 
+// Patches over the axis the normal points along count most: 64 times as much as those half as steep that just
+// pass.
 Stamp stamp_of(const SurfacePatch& patch, int sign) {
-  const std::int64_t weight =
-      sign * std::clamp<std::int64_t>(fixed(patch.weight, 1.0 / kTypicalWeight), 1, kMaxWeight);
+  const double along = patch.normal[static_cast<std::size_t>(patch.axis)], squared = along * along;
+  const double counted = patch.weight / kTypicalWeight * squared * squared * squared;
+  const std::int64_t weight = sign * std::clamp<std::int64_t>(fixed(counted, kWeightUnit), 1, kMaxWeight);
   Stamp stamp{weight,
               {},
               weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit),

@@ -145,7 +145,8 @@ PlacedBounds bounds_of(std::span<const PlacedPoint> points) {
 
 LineQuantizer::LineQuantizer(const MesherOptions& options)
     : interval_(options.interval),
-      max_distance_(std::min(options.max_distance, kReach * options.interval)),
+      max_distance_(options.max_distance),
+      reach_(std::min(options.max_distance, kReach * options.interval)),
       max_deviation_(static_cast<float>(options.max_deviation)) {
   placement_.steps_per_mm = static_cast<float>(kSteps / options.interval);
   placement_.weight_scale =
@@ -168,10 +169,10 @@ void LineQuantizer::prepare(const SurfaceLine& line) {
   std::array<std::int32_t, 3> corner{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double middle = line.seen_from[static_cast<Eigen::Index>(i)];
-    placement_.low[i] = static_cast<float>(std::max(middle - max_distance_, -limit));
-    placement_.high[i] = static_cast<float>(std::min(middle + max_distance_, limit));
+    placement_.low[i] = static_cast<float>(std::max(middle - reach_, -limit));
+    placement_.high[i] = static_cast<float>(std::min(middle + reach_, limit));
     const double lowest =
-        std::clamp(std::floor((middle - max_distance_) / interval_) - 1, -1.0 * kGridLimit, 1.0 * kGridLimit);
+        std::clamp(std::floor((middle - reach_) / interval_) - 1, -1.0 * kGridLimit, 1.0 * kGridLimit);
     corner[i] = static_cast<std::int32_t>(lowest);
     placement_.origin[i] = static_cast<float>(lowest * interval_);
   }

@@ -79,7 +79,8 @@ class LineQuantizer {
   void count_refused(const SurfaceLine& line, MesherCounters& counters) const;
 
   double interval_;
-  double max_distance_;
+  double max_distance_;  // mm, as asked for
+  double reach_;         // mm, the same or as far as steps can be counted
   float max_deviation_;
   LinePlacement placement_;
   std::vector<PlacedPoint> placed_;

@@ -10,9 +10,9 @@ namespace linescope {
 namespace {
 
 // Component of the normal along h, from all points, below which another axis serves (less than 1/sqrt(3)).
-constexpr double kMinAxisShare = 0.55;
+constexpr double kMinAxisShare = 0.50;
 // The same, of the fit: below this it ran away.
-constexpr double kSteepest = 0.45;
+constexpr double kSteepest = 0.40;
 // Standard deviation of the points across their narrowest direction: in intervals, and in deviations of a
 // point, because a ribbon of noise is no surface.
 constexpr double kMinSpread = 0.15;

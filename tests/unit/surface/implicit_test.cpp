@@ -71,7 +71,7 @@ TEST(Implicit, WithoutNoiseCurvatureLeavesNoBias) {
 }
 
 TEST(Implicit, IsOneSidedOpenAndWithoutStraySkin) {
-  for (const double angle : {0.0, 0.7, 0.95}) {
+  for (const double angle : {0.0, 0.2, 0.5, 0.7, 0.95, 1.2, 1.6, 2.2}) {
     ScanPlan plan;
     plan.pose = tilted(angle);
     const auto scan = testing::scan_condyle(plan);
@@ -81,7 +81,7 @@ TEST(Implicit, IsOneSidedOpenAndWithoutStraySkin) {
     EXPECT_EQ(topology.euler(), 1) << angle;  // a disc: one border, no hole
     EXPECT_EQ(topology.repeated_edges, 0u) << angle;
     EXPECT_EQ(topology.degenerate, 0u) << angle;
-    EXPECT_NEAR(mesh.area(), 258.0, 0.03 * 258.0 + 10) << angle;  // 25 x 10 mm, bent
+    EXPECT_NEAR(mesh.area(), 258.0, 0.03 * 258.0) << angle;  // 25 x 10 mm, bent
     for (const auto& p : mesh.positions) EXPECT_LT(std::abs(scan.distance(p)), 0.3) << angle;
   }
 }
