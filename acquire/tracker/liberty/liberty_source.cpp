@@ -10,7 +10,8 @@ namespace linescope {
 namespace {
 
 constexpr Nanoseconds kReadSlice = 50 * kMillisecond;
-constexpr int kMostRestarts = 2;  // on the open line; then it is closed and opened again
+constexpr std::size_t kMostPerChunk = 1024;  // a transfer holds some hundred records
+constexpr int kMostRestarts = 2;             // on the open line; then it is closed and opened again
 
 std::string reason_for(const StationFigures& figures) {
   if (is_error(figures.error)) return std::string(error_words(figures.error));
@@ -39,7 +40,9 @@ LibertySource::LibertySource(const LibertyOptions& options)
     : LibertySource(options, make_transport(options)) {}
 
 LibertySource::LibertySource(const LibertyOptions& options, std::unique_ptr<ByteTransport> transport)
-    : options_(options), transport_(std::move(transport)), stream_(options) {}
+    : options_(options), transport_(std::move(transport)), stream_(options) {
+  fresh_.reserve(kMostPerChunk);
+}
 
 LibertySource::~LibertySource() {
   stop();
@@ -126,14 +129,14 @@ void LibertySource::read_stream() {
   failed_restarts_ = 0;
   if (std::exchange(first_bytes_pending_, false)) ++starts_;
   stream_.feed(chunk->bytes, chunk->arrival, *this);
-  publish();
+  hand_over();
 }
 
 /// The button of a stylus, a reset, the last sensor unplugged: ask the unit again rather than wait for ever.
 void LibertySource::handle_silence() {
   if (monotonic_now() - last_bytes_ < options_.silence_limit) return;
   stream_.fall_silent(ToolState::missing, monotonic_now(), *this);
-  publish();
+  hand_over();
   if (failed_restarts_ >= kMostRestarts)
     return lose_unit(
         {ErrorCode::timeout, fmt::format("LIBERTY on {}: it does not answer any more; {}",
@@ -156,7 +159,7 @@ void LibertySource::lose_unit(const Error& error) {
   transport_->close();
   say(false, error.message);
   stream_.fall_silent(ToolState::disconnected, monotonic_now(), *this);
-  publish();
+  hand_over();
 }
 
 void LibertySource::say(bool delivering, std::string sentence) {
@@ -170,6 +173,13 @@ void LibertySource::on_message(std::uint8_t error, std::string_view text) {
   const auto words = error_words(error);
   say(streaming_, fmt::format("LIBERTY on {}: it reports {}{}", transport_->description(),
                               words.empty() ? "a message: " : words, words.empty() ? text : ""));
+}
+
+/// States first: who takes a sample and asks for its station's state gets no older one.
+void LibertySource::hand_over() {
+  publish();
+  for (const PoseSample& sample : fresh_) queue_.push(sample);
+  fresh_.clear();
 }
 
 void LibertySource::publish() {

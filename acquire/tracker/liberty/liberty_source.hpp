@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "acquire/tracker/liberty/byte_transport.hpp"
 #include "acquire/tracker/liberty/liberty_options.hpp"
@@ -51,17 +52,19 @@ class LibertySource : public TrackerSource, private SampleSink {
   void handle_silence();
   void lose_unit(const Error& error);
   void say(bool delivering, std::string sentence);
+  void hand_over();
   void publish();
   void publish_station(int station, StationStatus& status);
 
-  void on_sample(const PoseSample& sample) override { queue_.push(sample); }
+  void on_sample(const PoseSample& sample) override { fresh_.push_back(sample); }
   void on_message(std::uint8_t error, std::string_view text) override;
 
   LibertyOptions options_;
   std::unique_ptr<ByteTransport> transport_;
   LibertyStream stream_;
   LibertyIdentity identity_;
-  SampleQueue queue_{8192};  ///< 4 s of eight sensors
+  std::vector<PoseSample> fresh_;  ///< of the current chunk; room for all of it from the start
+  SampleQueue queue_{8192};        ///< 4 s of eight sensors
   TrackerLedger ledger_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};

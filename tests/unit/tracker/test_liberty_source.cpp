@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 class LibertySourceTest : public ::testing::Test {
  protected:
   LibertySourceTest() {
-    options.answer_timeout = kSecond;
-    options.silence_limit = 300 * kMillisecond;
+    options.answer_timeout = 5 * kSecond;
+    options.silence_limit = 30 * kSecond;  // a slow machine must not look like a silent unit
     options.retry_after = 5 * kMillisecond;
   }
 
@@ -120,22 +120,24 @@ TEST_F(LibertySourceTest, TheReasonOfABadStationIsInWords) {
 }
 
 TEST_F(LibertySourceTest, AUnitThatFallsSilentIsStartedAgain) {
+  options.silence_limit = 300 * kMillisecond;
   start();
   line->unit.run_cycles(2);
   ASSERT_TRUE(take(6));
   line->unit.go_quiet();
-  ASSERT_TRUE(run_until([&] { return source->counters().reconnects == 1; }));
+  ASSERT_TRUE(run_until([&] { return source->counters().reconnects >= 1; }));
   EXPECT_TRUE(source->status().delivering);
   EXPECT_EQ(line->opened, 1) << "the line itself was never given up";
 }
 
 TEST_F(LibertySourceTest, AUnitSwitchedOffAndOnIsConfiguredAgain) {
+  options.silence_limit = 300 * kMillisecond;
   start();
   line->unit.run_cycles(2);
   ASSERT_TRUE(take(6));
   line->unit.power_cycle();
   samples.clear();
-  ASSERT_TRUE(run_until([&] { return source->counters().reconnects == 1 && samples.size() > 20; }));
+  ASSERT_TRUE(run_until([&] { return source->counters().reconnects >= 1 && samples.size() > 20; }));
   EXPECT_TRUE(line->unit.binary());
   EXPECT_EQ(samples.back().state, ToolState::ok);
 }
@@ -164,6 +166,7 @@ TEST_F(LibertySourceTest, UnplugAndReplug) {
 }
 
 TEST_F(LibertySourceTest, TheLastSensorUnpluggedIsSaidAndItsReturnNoticed) {
+  options.silence_limit = 300 * kMillisecond;
   line = std::make_shared<DirectLine>(1);
   start();
   line->unit.run_cycles(2);
@@ -200,8 +203,15 @@ TEST_F(LibertySourceTest, NobodyTakingSamplesLosesTheOldestAndCounts) {
     line->unit.run_cycles(1);
     while (line->unit.streaming() && line->unit.packets_waiting() > 2) std::this_thread::yield();
   }
-  ASSERT_TRUE(
-      until([&] { return source->counters().queue_overruns == 9000u - 8192u + samples.size(); }, [] {}));
+  // 9000 samples came, 8192 fit, and nobody takes any before the last has arrived.
+  const Nanoseconds give_up = monotonic_now() + 60 * kSecond;
+  while (source->counters().queue_overruns < 808 && monotonic_now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(source->counters().queue_overruns, 808u);
+  ASSERT_TRUE(take(8192));
+  EXPECT_EQ(samples.front().frame_count, 270u)
+      << "the oldest gave way: 808 of three sensors are 269 cycles and one";
+  EXPECT_EQ(samples.back().frame_count, 3000u);
 }
 
 TEST_F(LibertySourceTest, StoppingLeavesAQuietUnit) {
