@@ -16,7 +16,8 @@ std::vector<SurfacePoint> points_of(DaemonUnderTest& daemon, std::uint64_t pictu
   EXPECT_TRUE(reader) << daemon.process().standard_error();
   if (!reader) return {};
   EXPECT_TRUE(eventually([&] { return counter(*reader, Counter::frames_received) >= pictures; }, 60s));
-  return whole_scan(*reader).points;
+  const LineBatch scan = whole_scan(*reader);
+  return {scan.points.begin(), scan.points.end()};
 }
 
 bool same_bits(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
