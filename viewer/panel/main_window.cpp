@@ -148,11 +148,13 @@ void MainWindow::show_state(const ViewState& state, const std::vector<LineNews>&
   show_news(news);
   if (new_surface) show_surface(state);
   const AngleReadout angle = angle_readout(state, now, navigate_page_->tolerance());
+  shown_angle_ = angle;
+  shown_at_ = now;
   show_guidance(state, angle, now);
   show_texts(state, angle, now);
-  // After a picture that took long the events get their turn first: at most half of the time goes into
-  // drawing.
-  if (since_draw_.isValid() && static_cast<double>(since_draw_.elapsed()) < last_draw_ms_) return;
+  // After a picture that took long, events and the daemon get their turn: at most a third of the time goes
+  // into drawing.
+  if (since_draw_.isValid() && static_cast<double>(since_draw_.elapsed()) < 2 * last_draw_ms_) return;
   QElapsedTimer took;
   took.start();
   if (!views_->draw_if_needed()) return;

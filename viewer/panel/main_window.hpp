@@ -14,6 +14,7 @@
 #include "viewer/panel/pace.hpp"
 #include "viewer/panel/surface_page.hpp"
 #include "viewer/panel/top_bar.hpp"
+#include "viewer/readouts.hpp"
 #include "viewer/scene/scene.hpp"
 
 class QStackedWidget;
@@ -89,6 +90,8 @@ class MainWindow : public QMainWindow {
   NormalChoice normal_;
   Moment moment_ = Moment::scan;
   ViewState state_;
+  AngleReadout shown_angle_;  ///< as last brought to the screen
+  Nanoseconds shown_at_ = 0;
   ColourBy colour_ = ColourBy::plain;
   std::optional<Eigen::Vector3d> measure_from_;
   bool measuring_ = false;

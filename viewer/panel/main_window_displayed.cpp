@@ -43,11 +43,11 @@ const char* word(LinkState state) {
 
 QJsonObject MainWindow::displayed_state() const {
   const LiveView& live = *state_.live;
-  const Nanoseconds now = monotonic_now();
-  const AngleReadout angle = angle_readout(state_, now, navigate_page_->tolerance());
+  const Nanoseconds now = shown_at_;
+  const AngleReadout& angle = shown_angle_;
   Scene& scene = views_->scene();
   return {
-      {"time_ns", QString::number(now)},
+      {"time_ns", QString::number(monotonic_now())},
       {"moment", name(moment_)},
       {"link", word(live.link.state)},
       {"daemon_pid", static_cast<int>(live.link.pid)},

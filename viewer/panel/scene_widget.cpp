@@ -3,6 +3,7 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <QSurfaceFormat>
+#include <cstdlib>
 
 #include "viewer/panel/theme.hpp"
 
@@ -31,6 +32,8 @@ std::string renderer_line(const char* capabilities) {
 }  // namespace
 
 void prepare_graphics() {
+  // VTK's worker threads spin while they wait; the processors belong to the daemon and to the renderer.
+  if (std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr) qputenv("VTK_SMP_BACKEND_IN_USE", "Sequential");
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0);  // the render window multisamples on its own; twice costs twice
   QSurfaceFormat::setDefaultFormat(format);
