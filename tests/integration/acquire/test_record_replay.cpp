@@ -15,7 +15,14 @@ std::vector<SurfacePoint> points_of(DaemonUnderTest& daemon, std::uint64_t pictu
   auto reader = daemon.attach();
   EXPECT_TRUE(reader) << daemon.process().standard_error();
   if (!reader) return {};
-  EXPECT_TRUE(eventually([&] { return counter(*reader, Counter::frames_received) >= pictures; }, 60s));
+  // The last line is placed after its picture was counted: the state tells that the source is through.
+  DaemonStatus status;
+  EXPECT_TRUE(eventually(
+      [&] {
+        return counter(*reader, Counter::frames_received) >= pictures && reader->status(status) == ReadOutcome::ok &&
+               status.state == DaemonState::idle;
+      },
+      60s));
   const LineBatch scan = whole_scan(*reader);
   return {scan.points.begin(), scan.points.end()};
 }
