@@ -49,7 +49,7 @@ class LibertyStreamTest : public ::testing::Test {
 TEST_F(LibertyStreamTest, GivesSamplesWithPoseTimeAndCount) {
   cycles(10, 500, {{.station = 1, .position = {1, 2, 3}}, {.station = 3, .quaternion = {0, 1, 0, 0}}});
   EXPECT_EQ(samples.all.size(), 980u);
-  const PoseSample& last = samples.of(0).back();
+  const PoseSample last = samples.of(0).back();
   EXPECT_EQ(last.state, ToolState::ok);
   EXPECT_EQ(last.frame_count, 499u);
   EXPECT_EQ(last.world_from_sensor.translation(), Eigen::Vector3d(10, 20, 30));
