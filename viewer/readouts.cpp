@@ -129,6 +129,18 @@ Banner daemon_banner(const LiveView& live) {
   return {};
 }
 
+/// All tools that ever delivered are late, and there are at least two of them: no cable of one sensor does
+/// that.
+bool all_stale(const LiveView& live, Nanoseconds now) {
+  int seen = 0;
+  for (const ToolView& tool : live.tools) {
+    if (tool.acquired == 0) continue;
+    if (now - tool.acquired <= kBlankAfter) return false;
+    ++seen;
+  }
+  return seen > 1;
+}
+
 Banner tool_banner(const LiveView& live, Nanoseconds now) {
   if (live.held_in == HeldIn::object && live.scan.lines_unplaced > 0 &&
       !tool_good(live, ToolRole::object, now))
@@ -136,6 +148,9 @@ Banner tool_banner(const LiveView& live, Nanoseconds now) {
             fmt::format("{} lines are not drawn: object sensor {}", grouped(live.scan.lines_unplaced),
                         name(live.scan.unplaced_because)),
             "Fix sensor 2 to the object; or, where nothing moves, start the viewer with --hold-in world."};
+  if (all_stale(live, now))
+    return {Mood::bad, "No fresh pose of any tool",
+            "Check the tracker; if it is well, the daemon's machine is overloaded: close other programs."};
   for (const ToolRole role : {ToolRole::object, ToolRole::harvester, ToolRole::endoscope}) {
     const StatusLine line = tool_status(live, role, now);
     if (line.mood == Mood::bad)
@@ -197,10 +212,14 @@ StatusLine tool_status(const LiveView& live, ToolRole role, Nanoseconds now) {
 
 StatusLine camera_status(const LiveView& live, Nanoseconds now) {
   const CameraView& camera = live.camera;
-  StatusLine line{.title = "Camera",
-                  .word = std::string(name(camera.state)),
-                  .detail = {},
-                  .mood = mood_of(camera.state)};
+  // A camera that delivers, but pictures of long ago, is not a live camera.
+  const bool late = live.picture && now - live.picture->time > kPictureIsLiveFor;
+  const ToolState state = usable(camera.state) && late ? ToolState::stale : camera.state;
+  StatusLine line{.title = "Camera", .word = std::string(name(state)), .detail = {}, .mood = mood_of(state)};
+  if (state == ToolState::stale && usable(camera.state)) {
+    line.detail = fmt::format("newest picture is {} old", age_text(live.picture->time, now));
+    return line;
+  }
   if (camera.state == ToolState::ok) {
     line.detail = camera.rate_hz > 0 ? fmt::format("{:.0f} Hz", camera.rate_hz) : camera.name;
     return line;

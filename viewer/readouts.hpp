@@ -14,6 +14,9 @@ namespace linescope {
 /// only with the next display tick and 0.2 s is what the operator was promised.
 inline constexpr Nanoseconds kBlankAfter = kStaleAfter - 50 * kMillisecond;
 
+/// A picture older than this is not live.
+inline constexpr Nanoseconds kPictureIsLiveFor = 500 * kMillisecond;
+
 /// Shown instead of a number without a good input.
 inline constexpr const char* kBlank = "--";
 

@@ -4,8 +4,10 @@
 #include <vtkCamera.h>
 
 #include <Eigen/Geometry>
+#include <QResizeEvent>
 #include <QShortcut>
 #include <QStackedWidget>
+#include <algorithm>
 
 #include "common/units.hpp"
 #include "viewer/navigate/angle_difference.hpp"
@@ -21,6 +23,7 @@ namespace linescope {
 namespace {
 
 constexpr int kSideWidth = 348;
+constexpr double kSideShare = 0.27;  ///< of the window's width
 constexpr double kSmallNumerals = 44, kLargeNumerals = 94;
 constexpr int kMessagesKept = 500;
 
@@ -82,6 +85,7 @@ QWidget* MainWindow::build_views() {
 
 QWidget* MainWindow::build_side() {
   auto* side = new QWidget(this);
+  side_ = side;
   side->setFixedWidth(scaled(kSideWidth));
   auto* rows = new QVBoxLayout(side);
   rows->setContentsMargins(0, scaled(8), 0, scaled(8));
@@ -115,6 +119,13 @@ QWidget* MainWindow::build_foot() {
   row->setSpacing(scaled(8));
   for (StatusCard*& card : cards_) row->addWidget(card = new StatusCard(foot), 1);
   return foot;
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  // A larger window gives the picture and the bullseye their share.
+  side_->setFixedWidth(
+      std::clamp(static_cast<int>(kSideShare * width()), scaled(kSideWidth), scaled(1.6 * kSideWidth)));
 }
 
 void MainWindow::add_keys() {

@@ -64,6 +64,7 @@ class MainWindow : public QMainWindow {
 
  private:
   void build();
+  void resizeEvent(QResizeEvent* event) override;
   QWidget* build_side();
   QWidget* build_views();
   QWidget* build_foot();
@@ -100,6 +101,7 @@ class MainWindow : public QMainWindow {
   QElapsedTimer since_draw_;
   double last_draw_ms_ = 0;
 
+  QWidget* side_ = nullptr;
   TopBar* top_ = nullptr;
   BannerBar* banner_ = nullptr;
   SceneWidget* views_ = nullptr;

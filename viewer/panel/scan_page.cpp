@@ -8,8 +8,6 @@
 namespace linescope {
 namespace {
 
-constexpr Nanoseconds kPictureIsLiveFor = 500 * kMillisecond;
-
 std::string why_picture_is_old(const LiveView& live, Nanoseconds now) {
   if (live.link.state != LinkState::attached) return "no daemon";
   if (!live.picture) return "no picture yet";

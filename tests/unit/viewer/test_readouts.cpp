@@ -142,6 +142,26 @@ TEST(Banner, SaysTheWorstFirstAndWhatToDo) {
   EXPECT_EQ(silent.mood, Mood::bad);
 }
 
+TEST(Banner, WhenEveryToolIsLateItIsNoCable) {
+  const Good g;
+  EXPECT_EQ(banner(g.live, kNow + kSecond).text, "No fresh pose of any tool");
+  Good one = g;
+  one.live.tool(ToolRole::harvester).acquired = kNow - kSecond;
+  EXPECT_EQ(banner(one.live, kNow).text, "Harvester: stale");
+}
+
+TEST(CameraStatus, PicturesOfLongAgoAreNotLive) {
+  Good g;
+  g.live.camera.state = ToolState::ok;
+  auto picture = std::make_shared<PictureView>();
+  picture->time = kNow - 3 * kSecond;
+  g.live.picture = picture;
+  const StatusLine line = camera_status(g.live, kNow);
+  EXPECT_EQ(line.word, "stale");
+  EXPECT_EQ(line.detail, "newest picture is 3.0 s old");
+  EXPECT_EQ(line.mood, Mood::bad);
+}
+
 TEST(Banner, TellsOfLinesThatAreNotDrawn) {
   Good g;
   g.live.scan.lines_unplaced = 1234;
