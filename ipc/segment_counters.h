@@ -75,7 +75,8 @@
   /* ourselves */ \
   X(texts_too_long) \
   X(heartbeats_late)                /* more than 50 ms after the one before */ \
-  X(recording_dropped)              /* the recorder could not keep up */
+  X(recording_dropped)              /* the recorder could not keep up */ \
+  X(frames_late)                    /* older than the camera's period when they were taken */
 
 enum ls_counter_id {
 #define LS_COUNTER_ID(name) LS_COUNT_##name,
@@ -95,7 +96,8 @@ enum ls_counter_id {
   X(frame_total)      /* exposure's middle until the line was in the segment */ \
   X(pose_total)       /* acquisition of a pose until it was in the segment */ \
   X(publish_pose) \
-  X(command)          /* sent until answered */
+  X(command)          /* sent until answered */ \
+  X(tracker_clock)    /* typical distance of an arrival from the fit of the tracker's clock */
 
 enum ls_latency_id {
 #define LS_LATENCY_ID(name) LS_LATENCY_##name,

@@ -222,6 +222,8 @@ StatusLine camera_status(const LiveView& live, Nanoseconds now) {
   }
   if (camera.state == ToolState::ok) {
     line.detail = camera.rate_hz > 0 ? fmt::format("{:.0f} Hz", camera.rate_hz) : camera.name;
+    // The daemon's words on the laser's light: "raise the laser: line dim ...".
+    if (!camera.reason.empty()) line.detail += " · " + camera.reason;
     return line;
   }
   line.detail = joined(camera.reason, age_text(camera.last_picture, now));
