@@ -16,6 +16,7 @@ function(linescope_library name)
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} linescope_sanitize PRIVATE ${ARG_PRIVATE} linescope_warnings)
+  target_precompile_headers(${name} REUSE_FROM linescope_library_headers)
 endfunction()
 
 # linescope_program(NAME SOURCES... LIBS...): an installed program.
@@ -43,6 +44,7 @@ function(linescope_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
     linescope_warnings linescope_sanitize)
+  target_precompile_headers(${name} REUSE_FROM linescope_test_headers)
   if("unit" IN_LIST ARG_LABELS OR "fuzz" IN_LIST ARG_LABELS)
     add_dependencies(tests_sanitized ${name})
   endif()
