@@ -110,6 +110,8 @@ AngleInterval angle_interval_95(const Eigen::Vector2d& tilt, const TiltError& er
     result = {distances(centre, reach_low * ellipse.half_axes).low,
               distances(centre, reach_high * ellipse.half_axes).high};
   }
+  // Zero itself is tried by the two-dimensional ellipse alone: there is no direction to lose there.
+  if (centre.cwiseQuotient(ellipse.half_axes).norm() <= student * reach_for(0)) result.low = 0;
   return result;
 }
 

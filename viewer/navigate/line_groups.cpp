@@ -8,30 +8,48 @@
 namespace linescope {
 namespace {
 
+/// A segment moved along its line's view onto the robust quadric, and how far it was off.
+struct Placed {
+  Eigen::Vector2d at;
+  Eigen::Vector2d spread;
+  double error;
+};
+
 /// Mean over a segment of the ten features, exact for points spread evenly about the mean along a straight
 /// piece.
-FitRow row_of(const Patch& patch, const Quadric& quadric, std::size_t i) {
-  const double a = static_cast<double>(patch.sx[i]), b = static_cast<double>(patch.sy[i]);
-  double x = static_cast<double>(patch.x[i]), y = static_cast<double>(patch.y[i]);
-  const auto fitted = [&] {
-    const auto& q = quadric.b;
-    return q[0] + q[1] * x + q[2] * y + q[3] * (x * x + a * a) + q[4] * (x * y + a * b) +
-           q[5] * (y * y + b * b);
-  };
-  const double error = static_cast<double>(patch.z[i]) - fitted();
-  const Eigen::Vector2f& shear = patch.lines[patch.line[i]].shear;
-  x -= error * static_cast<double>(shear.x());
-  y -= error * static_cast<double>(shear.y());
+FitRow features_of(const Placed& p) {
+  const double x = p.at.x(), y = p.at.y(), a = p.spread.x(), b = p.spread.y();
   FitRow row;
   row << 1, x, y, x * x + a * a, x * y + a * b, y * y + b * b, x * (x * x + 3 * a * a),
-      x * (x * y + 2 * a * b) + y * a * a, y * (x * y + 2 * a * b) + x * b * b, y * (y * y + 3 * b * b),
-      fitted() + error, 0;
+      x * (x * y + 2 * a * b) + y * a * a, y * (x * y + 2 * a * b) + x * b * b, y * (y * y + 3 * b * b), 0, 0;
+  return row;
+}
+
+Placed placed(const Patch& patch, const Quadric& quadric, std::size_t i) {
+  Placed p;
+  p.at = {static_cast<double>(patch.x[i]), static_cast<double>(patch.y[i])};
+  p.spread = {static_cast<double>(patch.sx[i]), static_cast<double>(patch.sy[i])};
+  p.error = static_cast<double>(patch.z[i]) - features_of(p).head<6>().dot(quadric.b);
+  p.at -= p.error * patch.lines[patch.line[i]].shear.cast<double>();
+  return p;
+}
+
+/// The segment on the straight line through `anchor` along `direction`. A line on a curved surface seen
+/// askew is bent; its bend would be read as information about slope and curvature across the line, which it
+/// is not. What the bend does to the height is taken from the quadric.
+FitRow row_of(const Placed& p, const Quadric& quadric, const Eigen::Vector2d& anchor,
+              const Eigen::Vector2d& direction) {
+  const Placed straight{anchor + direction.dot(p.at - anchor) * direction,
+                        direction.dot(p.spread) * direction, p.error};
+  FitRow row = features_of(straight);
+  row[10] = row.head<6>().dot(quadric.b) + p.error;
   return row;
 }
 
 /// Weighted sums of one line.
 struct LineSums {
   double weight;
+  Eigen::Vector2d anchor;  ///< weighted mean of the places, once divided by the weight
   double along;
   double along_squared;
   FitRow rows;
@@ -40,12 +58,16 @@ struct LineSums {
 
   void clear() {
     weight = along = along_squared = 0;
+    anchor.setZero();
     rows.setZero();
     rows_along.setZero();
     segments = 0;
   }
-  void add(const FitRow& row, double w, double s) {
+  void anchor_at(const Eigen::Vector2d& at, double w) {
     weight += w;
+    anchor += w * at;
+  }
+  void add(const FitRow& row, double w, double s) {
     along += w * s;
     along_squared += w * s * s;
     rows += w * row;
@@ -114,12 +136,24 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
   RowBatch batch(within);
   std::array<LineSums, Patch::kMostLines> sums;
   for (std::size_t l = 0; l < line_count; ++l) sums[l].clear();
+  std::array<Placed, Patch::kMostSegments> segments;
+  const auto weight = [&](std::size_t i) {
+    return patch.weight[i] > 0 ? 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor)
+                               : 0.0;
+  };
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
-    if (!(patch.weight[i] > 0)) continue;
-    const double w = 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor);
-    const FitRow row = row_of(patch, quadric, i);
+    if (!(weight(i) > 0)) continue;
+    segments[i] = placed(patch, quadric, i);
+    sums[patch.line[i]].anchor_at(segments[i].at, weight(i));
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
+    const double w = weight(i);
+    if (!(w > 0)) continue;
+    LineSums& sum = sums[patch.line[i]];
+    const Eigen::Vector2d& direction = directions[patch.line[i]];
+    const FitRow row = row_of(segments[i], quadric, sum.anchor / sum.weight, direction);
     batch.add(row, w);
-    sums[patch.line[i]].add(row, w, directions[patch.line[i]].dot(row.segment<2>(1)));
+    sum.add(row, w, direction.dot(row.segment<2>(1)));
   }
   for (const std::uint16_t l : by_time) {
     const LineSums& sum = sums[l];
@@ -137,7 +171,6 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
     line.tilt_variance = 1 / spread;
     batch.add(line.tilt_row, -spread);
     within_freedom -= 1;
-    line.tilt_row.segment<2>(1) = directions[l];
   }
   batch.flush();
   forget_slopes_within();

@@ -26,7 +26,7 @@ struct OffsetModel {
 /// Tried, as parts of the offsets' first estimate and on top of the stated drift, and how likely each is
 /// beforehand.
 constexpr std::array<OffsetModel, 4> kModels{
-    {{1.0, 0.0, -0.11}, {0.8, 0.8, -3.0}, {0.5, 3.0, -3.5}, {0.2, 8.0, -4.0}}};
+    {{1.0, 0.0, -0.05}, {0.8, 0.8, -3.7}, {0.5, 3.0, -4.4}, {0.2, 8.0, -4.8}}};
 
 struct Candidate {
   Vector b = Vector::Zero();

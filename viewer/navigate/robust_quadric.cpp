@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
+#include <bitset>
 #include <cmath>
 
 namespace linescope {
@@ -136,6 +137,16 @@ class Reweighting {
 
   void compute_residuals() { kernels_.residuals(patch_, padded_, inverse_radius_, beta_, residuals_); }
 
+  /// Lines share their errors, so few lines follow a bent fit more closely than they should: what a fit that
+  /// takes three of them away leaves, brought back to size.
+  float shrinkage(float reach) const {
+    std::bitset<Patch::kMostLines> seen;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch_.size); ++i)
+      if (squared_distance(i) <= reach * reach) seen.set(patch_.line[i]);
+    const auto lines = static_cast<float>(seen.count());
+    return std::sqrt(lines / std::max(lines - 3, 0.25f * lines));
+  }
+
   /// Median of the residuals within a distance from the foot, as a standard deviation; by counting in bins an
   /// eighth of an octave wide (exponent and three bits of a float), within a per cent or so.
   float robust_scale(float reach) const {
@@ -157,7 +168,7 @@ class Reweighting {
     const float share = bins[bin] > 0 ? (0.5f * static_cast<float>(n) - static_cast<float>(below)) /
                                             static_cast<float>(bins[bin])
                                       : 0.0f;
-    return 1.4826f * (low + share * (high - low));
+    return shrinkage(reach) * 1.4826f * (low + share * (high - low));
   }
 
   template <class Weight>
@@ -217,7 +228,9 @@ Quadric fit_robust_quadric(Patch& patch, const RobustOptions& options) {
       work.reweigh(reach, [&](float r) { return scale / std::max(r, scale); });
       continue;
     }
-    scale = std::max(floor, work.robust_scale(kGrowth[round] * radius));
+    // The noise does not grow with the patch; what makes it seem to is something else that came in.
+    const float found = work.robust_scale(kGrowth[round] * radius);
+    scale = std::max(floor, std::min(found, 1.2f * scale));
     const float inverse = 1 / (1.25f * cut * scale);
     work.reweigh(reach, [&](float r) {
       const float u = std::max(0.0f, 1 - r * r * inverse * inverse);

@@ -9,12 +9,13 @@
 namespace linescope {
 namespace {
 
-constexpr int kSectors = 32;
+constexpr int kSectors = 64;
 
-/// Which directions about the origin hold surface.
+/// Which directions about the origin hold surface between two distances from it.
 class Ring {
  public:
-  explicit Ring(double radius) : squared_(static_cast<float>(radius * radius)) {}
+  Ring(double inner, double outer)
+      : inner_(static_cast<float>(inner * inner)), outer_(static_cast<float>(outer * outer)) {}
 
   /// A piece of a line: its middle and both ends (spread times sqrt(3), the half length of evenly spread
   /// points).
@@ -39,7 +40,7 @@ class Ring {
  private:
   void add(float x, float y) {
     const float squared = x * x + y * y;
-    if (squared > squared_ || squared < 0.01f) return;
+    if (squared > outer_ || squared < inner_) return;
     // The diamond's angle: monotone in the true one, no trigonometry; sectors differ a little in width.
     const float t = y / (std::abs(x) + std::abs(y));
     const float turn = x >= 0 ? (y >= 0 ? t : 4 + t) : 2 - t;
@@ -54,7 +55,7 @@ class Ring {
     return px * px + py * py;
   }
 
-  float squared_;
+  float inner_, outer_;
   float nearest_ = std::numeric_limits<float>::max();
   std::bitset<kSectors> taken_;
 };
@@ -80,7 +81,8 @@ void count(const Patch& patch, Support& support) {
 NormalReason verdict(const Patch& patch, const Support& support, Nanoseconds now,
                      const SupportOptions& options) {
   if (support.counts.points == 0) return NormalReason::no_surface;
-  Ring ring(std::min(options.ring, patch.radius));
+  const double outer = std::min(options.ring, patch.radius);
+  Ring ring(options.clear * outer / options.ring, outer);
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i)
     if (patch.weight[i] > 0) ring.add(patch.x[i], patch.y[i], patch.sx[i], patch.sy[i]);
   if (ring.nearest() > options.largest_hole)
