@@ -9,10 +9,11 @@
 namespace linescope {
 namespace {
 
-constexpr int kNoiseEvery = 8;  // profiles, of the weighted mean: it reads no surroundings otherwise
-constexpr int kFollowers = 3;   // profiles in a row that rely on a neighbour
-constexpr int kSame = 2;        // px by which the ends of a run may differ from those of a neighbour
-constexpr int kLongest = 24;    // px; a longer run is more than a plain line
+constexpr int kNoiseEvery = 8;   // profiles, of the weighted mean: it reads no surroundings otherwise
+constexpr int kNoisePixels = 5;  // at each end of a window, as far from the line as it reaches
+constexpr int kFollowers = 3;    // profiles in a row that rely on a neighbour
+constexpr int kSame = 2;         // px by which the ends of a run may differ from those of a neighbour
+constexpr int kLongest = 24;     // px; a longer run is more than a plain line
 
 /// A saturated core has no colour: the marks beside it belong together when what lies between is at least as
 /// bright.
@@ -52,12 +53,14 @@ void CandidateFinder::find(const Profile& profile, int index, std::span<Run> run
   const bool alone = n == 1;
   for (const Run run : runs.first(n)) {
     if (options_.centre == CentreMethod::weighted_mean) {
-      out.all.push_back(mean_candidate(profile, index, run, excess_, options_));
+      fill_mean_candidate(profile, index, run, excess_, options_, out.all.emplace_back());
       if (index % kNoiseEvery == 0) noise.add(profile, run.last + 3, run.last + 10);
     } else if (!alone || !follow(profile, index, run, out)) {
       window_.read(profile, run);
       close_look(run, out);
-      noise.add(profile, window_.begin(), window_.begin() + window_.flank() + 3);
+      noise.add(profile, window_.begin(), window_.begin() + kNoisePixels - 1);
+      noise.add(profile, window_.begin() + window_.size() - kNoisePixels,
+                window_.begin() + window_.size() - 1);
     }
   }
 }
@@ -68,16 +71,22 @@ bool CandidateFinder::follow(const Profile& profile, int index, Run run, Candida
   if (std::abs(run.first - n.run.first) > kSame || std::abs(run.last - n.run.last) > kSame ||
       run.length() > kLongest)
     return false;
-  int top = 0;
-  for (int i = run.first; i <= run.last; ++i) top = std::max(top, profile.light(i));
-  if (top >= options_.saturation_level) return false;
-  Candidate c = out.all[static_cast<std::size_t>(n.candidate)];
+  int top = 0, sum = 0, moment = 0;
+  const std::uint8_t* p = profile.at[0] + run.first * profile.step;
+  for (int i = 0; i < run.length(); ++i, p += profile.step) {
+    const int light = std::max(0, *p - n.background);
+    top = std::max<int>(top, *p);
+    sum += light;
+    moment += light * i;
+  }
+  if (top >= options_.saturation_level || sum == 0) return false;
+  Candidate& c = out.all.emplace_back();
+  c = out.all[static_cast<std::size_t>(n.candidate)];
   c.profile = index;
-  c.centre += 0.5F * static_cast<float>(run.first + run.last - n.run.first - n.run.last);
+  c.centre = static_cast<float>(run.first) + static_cast<float>(moment) / static_cast<float>(sum);
   c.peak = static_cast<float>(top - n.background);
   c.light_size = 0;
-  n = {index, run, static_cast<int>(out.all.size()), n.background, n.followers + 1};
-  out.all.push_back(c);
+  n = {index, run, static_cast<int>(out.all.size()) - 1, n.background, n.followers + 1};
   return true;
 }
 

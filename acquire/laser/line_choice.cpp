@@ -17,7 +17,7 @@ void LineChoice::choose(CandidateList& candidates, const LineExtractorOptions& o
   chosen_.clear();
   const int profiles = line.profiles();
   for (int p = 0; p < profiles; ++p) choose_in(candidates, p, options, line);
-  smooth_widths();
+  if (options.centre == CentreMethod::gauss_weighted) smooth_widths();
 }
 
 void LineChoice::choose_in(CandidateList& candidates, int profile, const LineExtractorOptions& options,

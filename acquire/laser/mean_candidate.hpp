@@ -7,8 +7,9 @@
 
 namespace linescope {
 
-/// Peak and width are those of the excess; the width is that of the Gaussian of the same area and height.
-Candidate mean_candidate(const Profile& profile, int index, Run run, const ColourExcess& excess,
-                         const LineExtractorOptions& options);
+/// Fills a new candidate. Peak and width are those of the excess; the width is that of the Gaussian of the
+/// same area and height.
+void fill_mean_candidate(const Profile& profile, int index, Run run, const ColourExcess& excess,
+                         const LineExtractorOptions& options, Candidate& out);
 
 }  // namespace linescope
