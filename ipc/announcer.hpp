@@ -14,6 +14,13 @@ class Announcer {
  public:
   Announcer(std::uint32_t& news, std::uint32_t& sleepers) : news_(&news), sleepers_(&sleepers) {}
 
+  /// Wakes the sleepers ahead of a publication that takes microseconds, so that both run at the same time:
+  /// waking up takes longer. Leaves `sleepers` as it is: who falls asleep in between is woken by announce.
+  void ring_ahead(Topic topic) const noexcept {
+    const auto bit = static_cast<std::uint32_t>(topic);
+    if ((__atomic_load_n(sleepers_, __ATOMIC_RELAXED) & bit) != 0) futex_wake(*news_, bit);
+  }
+
   void announce(Topic topic) const noexcept {
     const auto bit = static_cast<std::uint32_t>(topic);
     // Both sequentially consistent, like the reader's pair (set the bit, then sleep only if news is

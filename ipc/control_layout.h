@@ -70,11 +70,12 @@ struct ls_control {
   uint8_t reserved0[32];
   uint64_t next_ticket; /* senders: +1 per command; order of sending */
   uint8_t reserved1[56];
-  uint32_t bell;    /* senders: +1 with every command; futex word of the daemon */
+  uint32_t bell; /* senders: +1 with every command; futex word of the daemon */
+  uint8_t reserved2[60];
   uint32_t listens; /* daemon: 1 while it sleeps on the bell */
-  uint8_t reserved2[56];
-  uint32_t sleepers; /* readers: bits of the topics somebody sleeps for; the writer clears and wakes */
   uint8_t reserved3[60];
+  uint32_t sleepers; /* readers: bits of the topics somebody sleeps for; the writer clears and wakes */
+  uint8_t reserved4[60];
   struct ls_slot slots[LS_CONTROL_SLOTS];
 };
 
@@ -113,10 +114,10 @@ LS_ASSERT_AT(ls_control, total_bytes, 16);
 LS_ASSERT_AT(ls_control, session_id, 24);
 LS_ASSERT_AT(ls_control, next_ticket, 64);
 LS_ASSERT_AT(ls_control, bell, 128);
-LS_ASSERT_AT(ls_control, listens, 132);
-LS_ASSERT_AT(ls_control, sleepers, 192);
-LS_ASSERT_AT(ls_control, slots, 256);
-LS_ASSERT_SIZE(ls_control, 256 + 64 * 320);
+LS_ASSERT_AT(ls_control, listens, 192);
+LS_ASSERT_AT(ls_control, sleepers, 256);
+LS_ASSERT_AT(ls_control, slots, 320);
+LS_ASSERT_SIZE(ls_control, 320 + 64 * 320);
 
 #undef LS_ASSERT_AT
 #undef LS_ASSERT_SIZE

@@ -9,12 +9,12 @@
 
 namespace linescope::shared {
 
-void futex_wait(const std::uint32_t& word, std::uint32_t expected, Nanoseconds deadline,
+bool futex_wait(const std::uint32_t& word, std::uint32_t expected, Nanoseconds deadline,
                 std::uint32_t bits) noexcept {
   timespec until{};
   until.tv_sec = static_cast<time_t>(deadline / kSecond);
   until.tv_nsec = static_cast<long>(deadline % kSecond);
-  syscall(SYS_futex, &word, FUTEX_WAIT_BITSET, expected, &until, nullptr, bits);
+  return syscall(SYS_futex, &word, FUTEX_WAIT_BITSET, expected, &until, nullptr, bits) == 0;
 }
 
 void futex_wake(std::uint32_t& word, std::uint32_t bits) noexcept {

@@ -8,8 +8,8 @@
 namespace linescope::shared {
 
 /// Sleeps while `word` holds `expected`, until woken with one of `bits` or until `deadline`
-/// (CLOCK_MONOTONIC). May return early without a reason.
-void futex_wait(const std::uint32_t& word, std::uint32_t expected, Nanoseconds deadline,
+/// (CLOCK_MONOTONIC). May return early without a reason. True when it was woken.
+bool futex_wait(const std::uint32_t& word, std::uint32_t expected, Nanoseconds deadline,
                 std::uint32_t bits) noexcept;
 
 /// Wakes everybody who sleeps on `word` for one of `bits`.

@@ -33,7 +33,7 @@
   X(lines_published) \
   X(lines_not_scanning) \
   X(lines_segment_full) \
-  X(lines_invalid)                  /* more points than a line may have, or not finite */ \
+  X(lines_invalid)                  /* no point, or more points than a line may have */ \
   X(lines_undone) \
   X(points_published) \
   X(points_segment_full) \

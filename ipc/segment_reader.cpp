@@ -50,7 +50,7 @@ Life SegmentReader::Parts::examine(Nanoseconds now) const {
   if (!intact()) return Life::damaged;
   if (now - name_checked >= kNameEvery || now < name_checked) {
     name_checked = now;
-    const ObjectFacts named = SharedObject::facts_of(segment.name());
+    const ObjectFacts named = segment.facts_of_name();
     name_is_gone = named.inode == 0;
     has_name = named.same_object(segment.facts());
   }

@@ -81,6 +81,13 @@ struct Picture {
   std::vector<PictureSample> samples;
 };
 
+/// Where a reader stands in the samples of one station. A fresh one begins with the first sample of the
+/// session.
+struct PoseCursor {
+  std::uint64_t next = 0;        ///< running number of the first sample not yet seen
+  std::uint64_t session_id = 0;  ///< a cursor of another session begins from scratch
+};
+
 class SegmentReader {
  public:
   /// One sentence per reason: `not_found` (no daemon yet), `permission` (other user, mode), `mismatch` (not a
@@ -119,6 +126,11 @@ class SegmentReader {
   /// does not reach back to `from` any more; what is there was appended.
   ReadOutcome pose_history(int station, Nanoseconds from, Nanoseconds to, std::vector<PoseSample>& out) const;
 
+  /// All samples of a station since the cursor, oldest first, appended to `out`. `missed`: how many of them
+  /// were overwritten before this call, because the history is shorter; exactly those are not in `out`.
+  ReadOutcome new_poses(int station, PoseCursor& cursor, std::vector<PoseSample>& out,
+                        std::uint64_t& missed) const;
+
   /// New lines with their points, see line_batch.hpp. `batch` is filled from scratch.
   ReadOutcome read_lines(LineCursor& cursor, LineBatch& batch, std::size_t max_points = 1'000'000) const;
 
@@ -135,6 +147,7 @@ class SegmentReader {
   struct Parts;
   class LineCopier;
   explicit SegmentReader(std::unique_ptr<Parts> parts);
+  bool news_soon(Topic topics);
   std::unique_ptr<Parts> parts_;
 };
 

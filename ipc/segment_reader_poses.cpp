@@ -1,5 +1,6 @@
 // Poses out of their rings, and the rates measured from the times in them.
 #include <algorithm>
+#include <optional>
 
 #include "ipc/segment_reader_parts.hpp"
 
@@ -56,6 +57,27 @@ ReadOutcome SegmentReader::latest_pose(int station, PoseSample& out) const {
   return ReadOutcome::ok;
 }
 
+namespace {
+
+/// Copies records backwards from `head` to `first`, until `use` gives false or the writer has come that far:
+/// what it overwrites meanwhile is the far end. Records of the returned number and above were copied;
+/// nothing: one of them is impossible.
+template <class Use>
+std::optional<std::uint64_t> copy_back(const shared::RingOut& ring, std::uint64_t head, std::uint64_t first,
+                                       int station, const Use& use) {
+  std::uint64_t i = head;
+  for (; i > first; --i) {
+    ls_pose_record r;
+    shared::get(r, shared::RingOut::as<ls_pose_record>(ring.place(i - 1)));
+    if (!ring.intact(i - 1)) break;
+    if (!plausible(r, i - 1, station)) return std::nullopt;
+    if (!use(r)) break;
+  }
+  return i;
+}
+
+}  // namespace
+
 ReadOutcome SegmentReader::pose_history(int station, Nanoseconds from, Nanoseconds to,
                                         std::vector<PoseSample>& out) const {
   if (station < 0 || station >= LS_STATIONS) return ReadOutcome::nothing;
@@ -63,21 +85,38 @@ ReadOutcome SegmentReader::pose_history(int station, Nanoseconds from, Nanosecon
   const shared::RingOut ring = parts_->ring(LS_SECTION_POSES, static_cast<std::uint32_t>(station));
   const std::uint64_t head = shared::load(ring.head());
   if (head == 0) return ReadOutcome::nothing;
-  const auto first = static_cast<std::ptrdiff_t>(out.size());
-  bool reached_back = false;
-  // Backwards from the newest: what the writer overwrites meanwhile is the far end.
-  std::uint64_t i = head;
-  while (i-- > oldest(head, ring.capacity())) {
-    ls_pose_record r;
-    shared::get(r, shared::RingOut::as<ls_pose_record>(ring.place(i)));
-    if (!ring.intact(i)) break;
-    if (!plausible(r, i, station)) return out.resize(static_cast<std::size_t>(first)), ReadOutcome::corrupt;
-    reached_back = r.time_ns < from || i == 0;
-    if (r.time_ns < from) break;
-    if (r.time_ns <= to) out.push_back(sample_of(r));
-  }
-  std::reverse(out.begin() + first, out.end());
-  return reached_back ? ReadOutcome::ok : ReadOutcome::overtaken;
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  bool earlier = false;
+  const auto reached = copy_back(ring, head, oldest(head, ring.capacity()), station, [&](const auto& r) {
+    earlier = r.time_ns < from;
+    if (!earlier && r.time_ns <= to) out.push_back(sample_of(r));
+    return !earlier;
+  });
+  if (!reached) return out.resize(static_cast<std::size_t>(begin)), ReadOutcome::corrupt;
+  std::reverse(out.begin() + begin, out.end());
+  return earlier || *reached == 0 ? ReadOutcome::ok : ReadOutcome::overtaken;
+}
+
+ReadOutcome SegmentReader::new_poses(int station, PoseCursor& cursor, std::vector<PoseSample>& out,
+                                     std::uint64_t& missed) const {
+  missed = 0;
+  if (station < 0 || station >= LS_STATIONS) return ReadOutcome::nothing;
+  if (!parts_->intact()) return ReadOutcome::corrupt;
+  const shared::RingOut ring = parts_->ring(LS_SECTION_POSES, static_cast<std::uint32_t>(station));
+  const std::uint64_t head = shared::load(ring.head());
+  const std::uint64_t next = cursor.session_id == parts_->identity.session_id ? cursor.next : 0;
+  if (head < next) return ReadOutcome::corrupt;
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  const auto reached =
+      copy_back(ring, head, std::max(next, oldest(head, ring.capacity())), station, [&](const auto& r) {
+        out.push_back(sample_of(r));
+        return true;
+      });
+  if (!reached) return out.resize(static_cast<std::size_t>(begin)), ReadOutcome::corrupt;
+  std::reverse(out.begin() + begin, out.end());
+  missed = *reached - next;
+  cursor = {head, parts_->identity.session_id};
+  return head == next ? ReadOutcome::nothing : ReadOutcome::ok;
 }
 
 RateFigures SegmentReader::pose_rate(int station) const {

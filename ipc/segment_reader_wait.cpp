@@ -10,6 +10,7 @@ namespace {
 
 constexpr Nanoseconds kLookAtLeastEvery = 50 * kMillisecond;
 constexpr Nanoseconds kPollWithoutWakeUps = 2 * kMillisecond;
+constexpr Nanoseconds kRungAhead = 20'000;
 constexpr std::array kTopics{Topic::lines, Topic::poses, Topic::pictures, Topic::status};
 
 bool includes(Topic topics, Topic one) {
@@ -54,20 +55,30 @@ bool SegmentReader::news(Topic topics) {
   return any;
 }
 
+/// The writer rings before it copies a line: what it rang for is a matter of microseconds.
+bool SegmentReader::news_soon(Topic topics) {
+  for (const Nanoseconds end = monotonic_now() + kRungAhead; monotonic_now() < end;) {
+    if (news(topics)) return true;
+  }
+  return false;
+}
+
 bool SegmentReader::wait(Topic topics, Nanoseconds timeout) {
   Parts& p = *parts_;
   const Nanoseconds start = monotonic_now();
   const Nanoseconds deadline = start + std::max<Nanoseconds>(timeout, 0);
   const auto bits = static_cast<std::uint32_t>(topics);
-  bool was_live = true;
+  bool was_live = true, woken = false;
   for (Nanoseconds now = start;; now = monotonic_now()) {
+    // Looked at first, as what is new is read from the mapping. A wake-up comes through the mapping: it is
+    // whole.
+    if (!woken && !p.intact()) return false;
+    const std::uint32_t before = shared::load(p.header().news);
+    if (news(topics) || (woken && news_soon(topics))) return true;
     const Life life = p.examine(now);
     const bool live = life == Life::live;
-    if (life == Life::damaged || (was_live && !live && now != start)) return false;
+    if (life == Life::damaged || (was_live && !live && now != start) || now >= deadline) return false;
     was_live = live;
-    const std::uint32_t before = shared::load(p.header().news);
-    if (news(topics)) return true;
-    if (now >= deadline) return false;
     Nanoseconds until = std::min(deadline, now + kLookAtLeastEvery);
     if (live) until = std::min(until, shared::load(p.header().heartbeat_ns) + kDeadAfter);
     if (p.control) {
@@ -75,7 +86,7 @@ bool SegmentReader::wait(Topic topics, Nanoseconds timeout) {
     } else {
       until = std::min(until, now + kPollWithoutWakeUps);
     }
-    shared::futex_wait(p.header().news, before, until, bits);
+    woken = shared::futex_wait(p.header().news, before, until, bits);
   }
 }
 

@@ -3,10 +3,11 @@
 // Threads. Each part of the segment has exactly one writing thread; which thread that is, is the caller's
 // choice, but it must always be the same one (or be handed over with a happens-before, as a join gives):
 //
-//   life    heartbeat                                                        (Heartbeat in ipc/heartbeat.hpp
-//   does it) state   set_state, publish_text pose    publish_pose, set_sensor_status line    begin_scan,
-//   set_scanning, undo_to, publish_line, publish_picture, set_camera_status any     count, record_latency
-//   (atomic additions)
+//   life     heartbeat (Heartbeat in ipc/heartbeat.hpp does it)
+//   state    set_state, publish_configuration, publish_calibration
+//   pose     publish_pose, set_sensor_status
+//   line     begin_scan, set_scanning, undo_to, publish_line, publish_picture, set_camera_status
+//   any      count, record_latency (atomic additions)
 #pragma once
 
 #include <cstddef>
@@ -27,8 +28,7 @@ enum class PublishOutcome {
   stored,
   full,          ///< no room for it; counted as lines_segment_full, points_segment_full
   not_scanning,  ///< counted as lines_not_scanning
-  invalid,       ///< no point, more points than points_per_line, or one that is not finite; counted as
-                 ///< lines_invalid
+  invalid,       ///< no point, or more points than points_per_line; counted as lines_invalid
 };
 std::string_view name(PublishOutcome outcome);
 
@@ -79,7 +79,8 @@ class SegmentWriter {
   std::uint32_t scan_id() const;
   bool full() const;
 
-  /// One line with its points (world, mm), visible with one store. Every call is counted as lines_offered and
+  /// One line with its points (world, mm; finite: that is the reconstruction's promise and not looked at
+  /// here), visible with one store. Every call is counted as lines_offered and
   /// as one of lines_published, lines_segment_full, lines_not_scanning, lines_invalid.
   PublishOutcome publish_line(const ScanLineInfo& info, std::span<const SurfacePoint> points);
 

@@ -139,10 +139,11 @@ PublishOutcome SegmentWriter::publish_line(const ScanLineInfo& info, std::span<c
     count(Counter::points_segment_full, points.size());
     return refuse_line(PublishOutcome::full, Counter::lines_segment_full);
   }
+  p.announcer.ring_ahead(Topic::lines);
   p.store_line(info, points);
+  p.announcer.announce(Topic::lines);
   count(Counter::lines_published);
   count(Counter::points_published, points.size());
-  p.announcer.announce(Topic::lines);
   return PublishOutcome::stored;
 }
 

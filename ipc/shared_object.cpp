@@ -26,15 +26,19 @@ ObjectFacts facts_from(const struct stat& s) {
   return {s.st_dev, s.st_ino, static_cast<std::uint64_t>(s.st_size), s.st_uid, s.st_mode & 07777U};
 }
 
+std::string path_of(const std::string& name) {
+  return "/dev/shm/" + name;
+}
+
 /// The object may be listed although it may not be opened: then at least its owner is known.
-ObjectFacts listed(const std::string& name) {
+ObjectFacts listed(const std::string& path) {
   struct stat s {};
-  if (::stat(("/dev/shm/" + name).c_str(), &s) != 0) return {};
+  if (::stat(path.c_str(), &s) != 0) return {};
   return facts_from(s);
 }
 
 tl::unexpected<Error> refused(const std::string& name) {
-  const ObjectFacts facts = listed(name);
+  const ObjectFacts facts = listed(path_of(name));
   return fail(ErrorCode::permission,
               fmt::format("shared memory {} belongs to {} (mode {:o}) and may not be opened by {}: run both "
                           "programs as the same "
@@ -69,11 +73,12 @@ Result<void> give_to_group(int descriptor, const std::string& group, std::uint32
 
 }  // namespace
 
+SharedObject::SharedObject(const std::string& name, Access access)
+    : name_(name), path_(path_of(name)), access_(access) {}
+
 Result<SharedObject> SharedObject::create(const std::string& name, std::size_t bytes,
                                           const std::string& group, std::uint32_t group_mode) {
-  SharedObject made;
-  made.name_ = name;
-  made.access_ = Access::read_write;
+  SharedObject made(name, Access::read_write);
   try {
     made.object_ =
         bip::shared_memory_object(bip::create_only, name.c_str(), bip::read_write, bip::permissions(0600));
@@ -91,9 +96,7 @@ Result<SharedObject> SharedObject::create(const std::string& name, std::size_t b
 }
 
 Result<SharedObject> SharedObject::open(const std::string& name, Access access) {
-  SharedObject opened;
-  opened.name_ = name;
-  opened.access_ = access;
+  SharedObject opened(name, access);
   try {
     opened.object_ = bip::shared_memory_object(
         bip::open_only, name.c_str(), access == Access::read_only ? bip::read_only : bip::read_write);
@@ -142,12 +145,12 @@ ObjectFacts SharedObject::facts() const {
   return facts_from(s);
 }
 
-ObjectFacts SharedObject::facts_of(const std::string& name) {
-  return listed(name);
+ObjectFacts SharedObject::facts_of_name() const {
+  return listed(path_);
 }
 
 bool SharedObject::owns_its_name() const {
-  const ObjectFacts named = facts_of(name_);
+  const ObjectFacts named = facts_of_name();
   return named.inode != 0 && named.same_object(facts());
 }
 

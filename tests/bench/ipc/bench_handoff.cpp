@@ -1,10 +1,11 @@
 // Handing a line of 640 points to a reader in another process: until the reader knows of it, and what it
 // costs the writer.
 //
-// Message by message in turn: the segment, a bare futex between two bare processes (no payload at all),
-// iceoryx where it is installed. `asleep`: a message every 4 ms, the reader sleeps in between. `polling`:
-// back to back, the reader spins. Targets: asleep at most 1.2 times the bare futex; polling half, asleep
-// 1/1.4 of iceoryx; writer's side 1/1.8 of iceoryx.
+// Message by message in turn: the segment; a bare futex between two bare processes that hands over nothing at
+// all; the same with the line's bytes copied by memcpy (into as much memory as a scan takes); iceoryx where
+// it is installed. `asleep`: a message every 4 ms, the reader sleeps in between. `polling`: back to back, the
+// reader spins. Targets: asleep at most 1.2 times the bare futex; polling half, asleep 1/1.4 of iceoryx;
+// writer's side 1/1.8 of iceoryx. Times on the wall: the quieter the machine the better.
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <thread>
 
 #include "ipc/futex.hpp"
@@ -26,15 +28,20 @@ namespace linescope::bench {
 namespace {
 
 constexpr int kMost = 20'000;
-enum Mechanism { kSegment, kFutex, kIceoryx, kMechanisms };
+enum Mechanism { kSegment, kFutex, kFutexCopy, kIceoryx, kMechanisms };
 
-/// Between the two processes: the bare futex, acknowledgements, and the moments at which the reader saw each
-/// message.
-struct Board {
-  std::atomic<std::uint32_t> reader_ready;
-  alignas(64) std::atomic<std::uint32_t> acknowledged;
+struct Bell {
   alignas(64) std::uint32_t word;
   alignas(64) std::uint32_t sleeps;
+};
+
+/// Between the two processes: the bare futexes, acknowledgements, and the moments at which the reader saw
+/// each message.
+struct Board {
+  std::atomic<std::uint32_t> sender_ready, reader_ready;
+  alignas(64) std::atomic<std::uint32_t> acknowledged;
+  Bell bare, with_bytes;
+  alignas(64) std::byte frames[kLinesPerScan][kLineBytes];
   alignas(64) std::array<Nanoseconds, kMost> seen[kMechanisms];
   std::array<double, kMost> handoff[kMechanisms];      ///< ns
   std::array<double, kMost> writer_side[kMechanisms];  ///< ns
@@ -49,23 +56,26 @@ void pin(unsigned cpu) {
 
 /// The bare minimum: a word in shared memory, woken only when somebody sleeps.
 struct BareFutex {
-  Board& board;
+  Bell& bell;
   void signal() const {
-    __atomic_fetch_add(&board.word, 1U, __ATOMIC_SEQ_CST);
-    if (__atomic_load_n(&board.sleeps, __ATOMIC_SEQ_CST) != 0)
-      shared::futex_wake(board.word, shared::kAllBits);
+    __atomic_fetch_add(&bell.word, 1U, __ATOMIC_SEQ_CST);
+    if (__atomic_load_n(&bell.sleeps, __ATOMIC_SEQ_CST) != 0) shared::futex_wake(bell.word, shared::kAllBits);
   }
   void await(std::uint32_t number, bool blocking) const {
     while (true) {
-      const std::uint32_t now = __atomic_load_n(&board.word, __ATOMIC_SEQ_CST);
+      const std::uint32_t now = __atomic_load_n(&bell.word, __ATOMIC_SEQ_CST);
       if (now == number) return;
       if (!blocking) continue;
-      __atomic_store_n(&board.sleeps, 1U, __ATOMIC_SEQ_CST);
-      shared::futex_wait(board.word, now, monotonic_now() + kSecond, shared::kAllBits);
-      __atomic_store_n(&board.sleeps, 0U, __ATOMIC_SEQ_CST);
+      __atomic_store_n(&bell.sleeps, 1U, __ATOMIC_SEQ_CST);
+      shared::futex_wait(bell.word, now, monotonic_now() + kSecond, shared::kAllBits);
+      __atomic_store_n(&bell.sleeps, 0U, __ATOMIC_SEQ_CST);
     }
   }
 };
+
+std::array<std::pair<Mechanism, Bell*>, 2> bells(Board& board) {
+  return {{{kFutex, &board.bare}, {kFutexCopy, &board.with_bytes}}};
+}
 
 struct Run {
   Board& board;
@@ -87,6 +97,7 @@ void await_line(SegmentReader& reader, LineCursor& cursor, LineBatch& batch, boo
 
 [[noreturn]] void read_all(const Run& run) {
   pin(1);
+  while (run.board.sender_ready == 0) std::this_thread::yield();
   auto reader = SegmentReader::attach({.name = run.segment});
   if (!reader) std::_Exit(1);
   const auto subscriber = run.iceoryx ? IceoryxSubscriber::create() : nullptr;
@@ -100,9 +111,11 @@ void await_line(SegmentReader& reader, LineCursor& cursor, LineBatch& batch, boo
     const auto at = static_cast<std::size_t>(i);
     await_line(*reader, cursor, batch, run.blocking, run.board.seen[kSegment][at]);
     ++run.board.acknowledged;
-    BareFutex{run.board}.await(static_cast<std::uint32_t>(i) + 1, run.blocking);
-    run.board.seen[kFutex][at] = monotonic_now();
-    ++run.board.acknowledged;
+    for (const auto& [mechanism, bell] : bells(run.board)) {
+      BareFutex{*bell}.await(static_cast<std::uint32_t>(i) + 1, run.blocking);
+      run.board.seen[mechanism][at] = monotonic_now();
+      ++run.board.acknowledged;
+    }
     if (!subscriber) continue;
     run.board.seen[kIceoryx][at] = subscriber->take(run.blocking, frame);
     ++run.board.acknowledged;
@@ -117,15 +130,29 @@ class Sender {
 
   void send_all() {
     pin(0);
+    touch_everything();
+    run_.board.sender_ready = 1;
     while (run_.board.reader_ready == 0) std::this_thread::yield();
     for (int i = 0; i < run_.messages; ++i) {
       send(kSegment, i, [&] { writer_.publish_line({}, points_); });
-      send(kFutex, i, [&] { BareFutex{run_.board}.signal(); });
+      send(kFutex, i, [&] { BareFutex{run_.board.bare}.signal(); });
+      send(kFutexCopy, i, [&] {
+        std::memcpy(run_.board.frames[static_cast<std::size_t>(i) % kLinesPerScan], points_.data(),
+                    points_.size() * sizeof(SurfacePoint));
+        BareFutex{run_.board.with_bytes}.signal();
+      });
       if (iceoryx_ != nullptr) send(kIceoryx, i, [&] { iceoryx_->publish(points_.data()); });
     }
   }
 
  private:
+  /// A fork maps shared pages anew: none of the ways shall pay for that in the run.
+  void touch_everything() {
+    std::memset(run_.board.frames, 1, sizeof run_.board.frames);
+    for (std::size_t i = 0; i < kLinesPerScan; ++i) writer_.publish_line({}, points_);
+    writer_.begin_scan(0);
+  }
+
   template <class Publish>
   void send(Mechanism mechanism, int i, const Publish& publish) {
     if (writer_.lines_in_scan() == kLinesPerScan) writer_.begin_scan(0);
@@ -160,9 +187,9 @@ struct Figures {
 };
 
 void report(benchmark::State& state, const Run& run) {
-  const char* names[] = {"segment", "futex", "iceoryx"};
+  const char* names[] = {"segment", "futex", "futex_copy", "iceoryx"};
   std::vector<Figures> all;
-  for (int m = 0; m < (run.iceoryx ? 3 : 2); ++m) {
+  for (int m = 0; m < (run.iceoryx ? kMechanisms : kIceoryx); ++m) {
     const double* handoff = run.board.handoff[m].data();
     const double* writer_side = run.board.writer_side[m].data();
     all.push_back({{handoff, handoff + run.messages}, {writer_side, writer_side + run.messages}});
@@ -170,8 +197,13 @@ void report(benchmark::State& state, const Run& run) {
     state.counters[std::string(names[m]) + "_p99_us"] = quantile(all.back().handoff, 0.99) * 1e-3;
     state.counters[std::string(names[m]) + "_writer_us"] = median(all.back().writer_side) * 1e-3;
   }
-  state.counters["x_futex_p50"] = quantile(all[kSegment].handoff, 0.5) / quantile(all[kFutex].handoff, 0.5);
-  state.counters["x_futex_p99"] = quantile(all[kSegment].handoff, 0.99) / quantile(all[kFutex].handoff, 0.99);
+  const auto times = [&](Mechanism other, double share) {
+    return quantile(all[kSegment].handoff, share) / quantile(all[other].handoff, share);
+  };
+  state.counters["x_futex_p50"] = times(kFutex, 0.5);
+  state.counters["x_futex_p99"] = times(kFutex, 0.99);
+  state.counters["x_futex_copy_p50"] = times(kFutexCopy, 0.5);
+  state.counters["x_futex_copy_p99"] = times(kFutexCopy, 0.99);
   if (!run.iceoryx) return;
   state.counters["iceoryx_x_segment"] = median(all[kIceoryx].handoff) / median(all[kSegment].handoff);
   state.counters["iceoryx_x_segment_writer"] =

@@ -144,9 +144,12 @@ void read_everything(SegmentReader& reader) {
     reader.sensor_status(station, sensor);
     reader.latest_pose(station, pose);
     reader.pose_history(station, 0, INT64_MAX, history);
+    PoseCursor cursor;
+    std::uint64_t missed = 0;
+    reader.new_poses(station, cursor, history, missed);
     reader.pose_rate(station);
   }
-  if (history.size() > kMaxStations * 4U) std::abort();
+  if (history.size() > kMaxStations * 2 * 4U) std::abort();
   reader.picture(picture);
   reader.frame_rate();
   reader.counters();

@@ -112,22 +112,29 @@ def checksum(words):
         return (a ^ ((b << np.uint64(32)) | (b >> np.uint64(32)))) | np.uint64(1)
 
 
-def check_line(record, raw, points, types):
-    """Against the checksum, and against what the publisher makes up from the serial."""
-    serial, count, first = int(record["serial"]), int(record["point_count"]), int(record["first_point"])
+def own_points(record, raw, points, types):
+    """The points of a line and its filling point, after the checksum was found to hold."""
+    count, first = int(record["point_count"]), int(record["first_point"])
     need(first % 2 == 0, "a line does not begin at an even point")
     padded = points[first * 20: (first + (count + 1) // 2 * 2) * 20]
     words = np.concatenate([np.frombuffer(raw[:312], np.uint64), padded.view(np.uint64)])
-    need(checksum(words) == record["checksum"], f"line {serial}: checksum")
+    need(checksum(words) == record["checksum"], f"line {record['serial']}: checksum")
+    both = padded.view(types["ls_point"])
+    return both[:count], both[count:]
+
+
+def check_line(record, raw, points, types):
+    """Against the checksum, and against what the publisher makes up from the serial."""
+    serial, count = int(record["serial"]), int(record["point_count"])
+    own, filling = own_points(record, raw, points, types)
     need(count == 1 + serial * 7919 % 640, f"line {serial}: number of points")
-    own = padded[: count * 20].view(types["ls_point"])
     i = np.arange(count, dtype=np.float32)
     s = np.float32(serial % 65536)
     need((own["position"] == np.stack([np.full(count, s), i, s - i], 1)).all(), f"line {serial}: positions")
     need((own["intensity"] == (serial + np.arange(count)) % 256).all(), f"line {serial}: intensities")
     need((own["standard_deviation"] == 0.25 * i).all(), f"line {serial}: deviations")
     if count % 2 == 1:
-        need(np.isnan(padded[count * 20:].view(types["ls_point"])["position"]).all(), f"line {serial}: filling point")
+        need(np.isnan(filling["position"]).all(), f"line {serial}: filling point")
     poses = record["poses"]
     need((poses[0]["position"] == [serial, 1, 2]).all() and (poses[2]["position"] == [5, 6, serial]).all(), f"line {serial}: poses")
     need((poses[1]["quaternion"] == [0, 1, 0, 0]).all() and poses[2]["state"] == 2, f"line {serial}: rotation or state")

@@ -4,59 +4,15 @@
 // docs/segment.md).
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <random>
 
 #include "ipc/control.hpp"
 #include "tests/integration/ipc/child.hpp"
-#include "tests/integration/ipc/watcher.hpp"
+#include "tests/integration/ipc/kill_series.hpp"
 
 namespace linescope::testing {
 namespace {
-
-int kills(int in_the_check) {
-  const char* wanted = std::getenv("LINESCOPE_KILLS");
-  return wanted != nullptr ? std::atoi(wanted) : in_the_check;
-}
-
-void sleep_us(int us) {
-  std::this_thread::sleep_for(std::chrono::microseconds(us));
-}
-
-template <class Condition>
-bool within(Nanoseconds time, const Condition& condition) {
-  for (const Nanoseconds end = monotonic_now() + time; monotonic_now() < end; sleep_us(500)) {
-    if (condition()) return true;
-  }
-  return condition();
-}
-
-/// What the machine withholds from a thread that does nothing but sleep 10 ms: no reader can notice anything
-/// faster.
-class Stopwatch {
- public:
-  Stopwatch() : thread_([this] { run(); }) {}
-  ~Stopwatch() {
-    end_ = true;
-    thread_.join();
-  }
-  /// Longest oversleep since the last call.
-  Nanoseconds longest() { return longest_.exchange(0); }
-
- private:
-  void run() {
-    while (!end_) {
-      const Nanoseconds start = monotonic_now();
-      sleep_us(10'000);
-      longest_ = std::max(longest_.load(), monotonic_now() - start - 10 * kMillisecond);
-    }
-  }
-  std::atomic<bool> end_{false};
-  std::atomic<Nanoseconds> longest_{0};
-  std::thread thread_;
-};
 
 class Crash : public ::testing::Test {
  protected:
@@ -81,48 +37,18 @@ class Crash : public ::testing::Test {
 };
 
 TEST_F(Crash, AWriterKilledAtAnyInstantHurtsNobody) {
-  const int rounds = kills(25);
-  Stopwatch stopwatch;
-  Watcher watcher(name_);
-  std::vector<Nanoseconds> noticed_after;
-  std::uint64_t attached = 0;
-  for (int i = 0; i < rounds; ++i) {
+  KillSeries series(name_, is_made_up);
+  for (int i = 0; i < kills(25); ++i) {
     Child publisher = start_publisher();
     // Most kills hit a publisher at full speed, some one that is just being born or taking over.
     const bool newborn = i % 8 == 7;
     if (!newborn) {
-      ASSERT_TRUE(within(10 * kSecond, [&] { return watcher.alive() != 0; })) << "round " << i << "\n"
-                                                                              << log();
+      ASSERT_TRUE(within(10 * kSecond, [&] { return series.alive(); })) << "round " << i << "\n" << log();
     }
-    sleep_us(random(newborn ? 20'000 : 40'000));
-    const bool was_alive = watcher.alive() != 0;
-    stopwatch.longest();
-    const Nanoseconds killed = monotonic_now();
-    publisher.kill();
-    if (!was_alive) continue;
-    ++attached;
-    ASSERT_TRUE(within(10 * kSecond, [&] { return watcher.alive() == 0; })) << "round " << i;
-    const Nanoseconds after = watcher.noticed() - killed;
-    noticed_after.push_back(after);
-    EXPECT_LE(after, 200 * kMillisecond + stopwatch.longest())
-        << "death is noticed within 0.2 s; round " << i;
+    series.kill(newborn ? 20'000 : 40'000, [&] { publisher.kill(); });
+    ASSERT_FALSE(HasFatalFailure());
   }
-  const WatcherAccount& account = watcher.finish();
-  EXPECT_EQ(account.torn, 0U);
-  EXPECT_EQ(account.damaged, 0U);
-  EXPECT_EQ(account.repeated, 0U);
-  EXPECT_EQ(account.unexplained, 0U);
-  EXPECT_EQ(account.corrupt, 0U);
-  EXPECT_GE(account.sessions, attached);
-  EXPECT_GT(account.lines, attached);
-  std::sort(noticed_after.begin(), noticed_after.end());
-  std::printf(
-      "kills %d, sessions %llu, lines checked %llu, torn %llu, repeated %llu; death noticed after: median "
-      "%.0f ms, largest %.0f ms\n",
-      rounds, static_cast<unsigned long long>(account.sessions),
-      static_cast<unsigned long long>(account.lines), static_cast<unsigned long long>(account.torn),
-      static_cast<unsigned long long>(account.repeated),
-      milliseconds_from(noticed_after[noticed_after.size() / 2]), milliseconds_from(noticed_after.back()));
+  series.expect_unharmed();
 }
 
 [[noreturn]] void read_for_ever(const std::string& name) {

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
-#include "tests/integration/ipc/made_up_line.hpp"
-
 namespace linescope::testing {
 
-Watcher::Watcher(std::string name) : name_(std::move(name)), thread_([this] { run(); }) {}
+Watcher::Watcher(std::string name, LineCheck whole)
+    : name_(std::move(name)), whole_(whole), thread_([this] { run(); }) {}
 
 Watcher::~Watcher() {
   finish();
@@ -19,34 +18,47 @@ const WatcherAccount& Watcher::finish() {
 }
 
 void Watcher::run() {
-  std::uint64_t last_session = 0;
   while (!end_) {
     auto reader = SegmentReader::attach({.name = name_});
-    if (!reader || reader->life(monotonic_now()) != Life::live ||
-        reader->identity().session_id == last_session) {
+    if (!reader || reader->life(monotonic_now()) != Life::live) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       continue;
     }
-    last_session = reader->identity().session_id;
     ++account_.sessions;
     next_serial_ = 0;
-    alive_ = last_session;
     follow(*reader);
-    noticed_ = monotonic_now();
-    alive_ = 0;
+    lose();
   }
 }
 
+/// Notes the moment at which the writer was found not to live any more.
+void Watcher::lose() {
+  if (alive_ == 0) return;
+  noticed_ = monotonic_now();
+  alive_ = 0;
+}
+
+/// Until the writer has ended or was replaced. One that is only silent may come back: on a busy machine its
+/// heart may pause.
 void Watcher::follow(SegmentReader& reader) {
   LineCursor cursor;
   LineBatch batch;
   while (!end_) {
+    const Nanoseconds now = monotonic_now();
+    const Life life = reader.life(now);
+    if (life != Life::live) {
+      lose();
+      if (life != Life::silent) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
+    last_alive_ = now;
+    alive_ = reader.identity().session_id;
     const Nanoseconds start = monotonic_now();
     const ReadOutcome outcome = reader.read_lines(cursor, batch);
     account_.longest_hang = std::max(account_.longest_hang, monotonic_now() - start);
     account_.corrupt += outcome == ReadOutcome::corrupt;
     if (outcome == ReadOutcome::ok) check(batch, cursor);
-    if (reader.life(monotonic_now()) != Life::live) return;
     if (outcome != ReadOutcome::ok) reader.wait(Topic::lines, 20 * kMillisecond);
   }
 }
@@ -54,7 +66,7 @@ void Watcher::follow(SegmentReader& reader) {
 void Watcher::check(const LineBatch& batch, const LineCursor& cursor) {
   account_.damaged += batch.damaged;
   for (const Line& line : batch.lines) {
-    (is_made_up(line, batch.points_of(line)) ? account_.lines : account_.torn) += 1;
+    (whole_(line, batch.points_of(line)) ? account_.lines : account_.torn) += 1;
     account_.repeated += line.serial < next_serial_;
   }
   const std::uint64_t explained = next_serial_ + batch.lines.size() + batch.damaged + batch.missed;

@@ -10,6 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "ipc/control_layout.h"
+
 namespace linescope::testing {
 namespace {
 
@@ -51,7 +53,7 @@ Offsets asserted_sizes() {
   Offsets found;
   each_match(all_headers(), R"(LS_ASSERT_SIZE\((\w+), (\d+)\);)",
              [&](const std::smatch& m) { found[m[1]] = std::stoull(m[2]); });
-  found["ls_control"] = 256 + 64 * 320;  // written as a sum there
+  found["ls_control"] = sizeof(ls_control);  // written as a sum there
   return found;
 }
 

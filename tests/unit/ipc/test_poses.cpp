@@ -92,6 +92,58 @@ TEST_F(Poses, HistoryIsAppended) {
   EXPECT_EQ(history_[2].time, 2000);
 }
 
+TEST_F(Poses, ACursorDeliversEachSampleOnce) {
+  PoseCursor cursor;
+  std::uint64_t missed = 0;
+  EXPECT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::nothing);
+  publish_samples(0, 5);
+  ASSERT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::ok);
+  EXPECT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::nothing);
+  publish_samples(5, 12);
+  ASSERT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::ok);
+  EXPECT_EQ(missed, 0U);
+  ASSERT_EQ(history_.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(history_[i].frame_count, i);
+  EXPECT_EQ(reader_->new_poses(8, cursor, history_, missed), ReadOutcome::nothing);
+}
+
+TEST_F(Poses, AReaderSlowerThanTheRingIsToldHowManySamplesItMissed) {
+  PoseCursor cursor;
+  std::uint64_t missed = 0;
+  publish_samples(0, 5);
+  reader_->new_poses(1, cursor, history_, missed);
+  history_.clear();
+  publish_samples(5, 105);  // the ring holds 16, of which one may be in work
+  ASSERT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::ok);
+  ASSERT_EQ(history_.size(), 15U);
+  EXPECT_EQ(missed, 85U);
+  EXPECT_EQ(history_.front().frame_count, 90U) << "5 were read, 85 missed";
+  EXPECT_EQ(history_.back().frame_count, 104U);
+}
+
+TEST_F(Poses, ALateReaderIsToldOfTheSamplesBeforeIt) {
+  publish_samples(0, 40);
+  SegmentReader late = attach();
+  PoseCursor cursor;
+  std::uint64_t missed = 0;
+  ASSERT_EQ(late.new_poses(1, cursor, history_, missed), ReadOutcome::ok);
+  EXPECT_EQ(missed, 25U);
+  EXPECT_EQ(history_.front().frame_count, 25U);
+}
+
+TEST_F(Poses, ACursorOfAnotherSessionBeginsFromScratch) {
+  PoseCursor cursor;
+  std::uint64_t missed = 0;
+  publish_samples(0, 9);
+  reader_->new_poses(1, cursor, history_, missed);
+  open(small_segment(name_));
+  publish_samples(0, 3);
+  history_.clear();
+  ASSERT_EQ(reader_->new_poses(1, cursor, history_, missed), ReadOutcome::ok);
+  EXPECT_EQ(history_.size(), 3U);
+  EXPECT_EQ(missed, 0U);
+}
+
 TEST_F(Poses, TheRateIsThatOfTheSamples) {
   for (int i = 0; i < 10; ++i) {
     PoseSample s = sample(i);
