@@ -1,5 +1,9 @@
 #include "tests/integration/acquire/daemon_under_test.hpp"
 
+#include <unistd.h>
+
+#include <csignal>
+
 namespace linescope::testing {
 namespace {
 
@@ -13,6 +17,12 @@ std::vector<std::string> command(std::vector<std::string> arguments, const std::
 
 DaemonUnderTest::DaemonUnderTest(std::vector<std::string> arguments, std::string segment)
     : segment_(std::move(segment)), process_(command(std::move(arguments), segment_)) {}
+
+DaemonUnderTest::~DaemonUnderTest() {
+  if (process_.running()) process_.send(SIGKILL);
+  process_.wait(std::chrono::seconds(10));
+  for (const std::string& left : leftovers(segment_)) ::unlink(("/dev/shm/" + left).c_str());
+}
 
 std::optional<SegmentReader> DaemonUnderTest::attach() {
   std::optional<SegmentReader> reader;

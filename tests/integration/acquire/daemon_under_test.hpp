@@ -15,6 +15,11 @@ class DaemonUnderTest {
  public:
   explicit DaemonUnderTest(std::vector<std::string> arguments, std::string segment = unique_segment());
 
+  /// Kills it and removes what a killed daemon leaves in /dev/shm.
+  ~DaemonUnderTest();
+  DaemonUnderTest(const DaemonUnderTest&) = delete;
+  DaemonUnderTest& operator=(const DaemonUnderTest&) = delete;
+
   ChildProcess& process() { return process_; }
   const std::string& segment() const { return segment_; }
 
