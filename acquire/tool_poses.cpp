@@ -9,6 +9,30 @@ namespace {
 
 constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::min();
 
+constexpr int kInstantsPerSide = 3;
+
+/// Mean of rotations that differ little, and of positions.
+class PoseMean {
+ public:
+  explicit PoseMean(const Rigid<World, Sensor>& first)
+      : first_(first.rotation()), rotation_(first.rotation().coeffs()), position_(first.translation()) {}
+
+  void add(const Rigid<World, Sensor>& pose) {
+    const Eigen::Vector4d& q = pose.rotation().coeffs();
+    rotation_ += q.dot(first_.coeffs()) < 0 ? Eigen::Vector4d(-q) : q;
+    position_ += pose.translation();
+    ++count_;
+  }
+
+  Rigid<World, Sensor> value() const { return {Eigen::Quaterniond(rotation_), position_ / count_}; }
+
+ private:
+  Eigen::Quaterniond first_;
+  Eigen::Vector4d rotation_;
+  Eigen::Vector3d position_;
+  int count_ = 1;
+};
+
 template <class Tool>
 LinePose<Tool> line_pose(const PoseAnswer& answer) {
   LinePose<Tool> pose;
@@ -40,16 +64,29 @@ bool ToolPoseLookup::behind(int station, Nanoseconds time, Nanoseconds newest) c
 }
 
 bool ToolPoseLookup::settled(Nanoseconds time) const {
-  const Nanoseconds last = newest();
-  if (last < time) return false;
+  const Nanoseconds last = newest(), end = time + kInstantsPerSide * step_;
+  if (last < end) return false;
   const std::array stations{roles_.endoscope, roles_.object, roles_.harvester};
-  return std::all_of(stations.begin(), stations.end(), [&](int s) { return behind(s, time, last); });
+  return std::all_of(stations.begin(), stations.end(), [&](int s) { return behind(s, end, last); });
+}
+
+PoseAnswer ToolPoseLookup::mean_about(int station, Nanoseconds time) const {
+  PoseAnswer answer = history_.pose_at(station, time);
+  if (!answer.ok()) return answer;
+  PoseMean mean(answer.world_from_sensor);
+  for (int k = 1; step_ > 0 && k <= kInstantsPerSide; ++k) {
+    const PoseAnswer before = history_.pose_at(station, time - k * step_);
+    const PoseAnswer after = history_.pose_at(station, time + k * step_);
+    if (!before.ok() || !after.ok()) break;
+    mean.add(before.world_from_sensor);
+    mean.add(after.world_from_sensor);
+  }
+  answer.world_from_sensor = mean.value();
+  return answer;
 }
 
 ToolPoses ToolPoseLookup::at(Nanoseconds time) const {
-  const auto answer = [&](int station) {
-    return station < 0 ? PoseAnswer{} : history_.pose_at(station, time);
-  };
+  const auto answer = [&](int station) { return station < 0 ? PoseAnswer{} : mean_about(station, time); };
   ToolPoses poses;
   poses.endoscope_answer = answer(roles_.endoscope);
   poses.endoscope = line_pose<Endoscope>(poses.endoscope_answer);

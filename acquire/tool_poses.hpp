@@ -15,25 +15,35 @@ struct ToolPoses {
   LinePose<Harvester> harvester;
 };
 
-/// Looks the poses up (interpolated, never extrapolated). Called by the line's thread only.
+/// Looks the poses up: interpolated, never extrapolated, and averaged over seven instants spread evenly over
+/// PoseHistoryOptions::mean_over about the picture's own. One sample of the tracker alone shakes a line more
+/// than everything else together, and a hand goes straight on for so short a time. Called by the line's
+/// thread only.
 class ToolPoseLookup {
  public:
   ToolPoseLookup(const PoseHistory& history, const StationRoles& roles, Nanoseconds longest_wait)
-      : history_(history), roles_(roles), longest_wait_(longest_wait) {}
+      : history_(history),
+        roles_(roles),
+        longest_wait_(longest_wait),
+        step_(history.options().mean_over / 6) {}
 
   /// True when waiting longer cannot improve the answer for `time`: every tool that ever delivered has a
-  /// sample behind it, or the tracker is `longest_wait` past it.
+  /// sample behind the last instant averaged, or the tracker is `longest_wait` past it.
   bool settled(Nanoseconds time) const;
 
+  /// Where not all instants have a pose on both sides of `time`, the mean is taken over the nearer ones that
+  /// have; the state is that of the instant itself.
   ToolPoses at(Nanoseconds time) const;
 
  private:
+  PoseAnswer mean_about(int station, Nanoseconds time) const;
   bool behind(int station, Nanoseconds time, Nanoseconds newest) const;
   Nanoseconds newest() const;
 
   const PoseHistory& history_;
   StationRoles roles_;
   Nanoseconds longest_wait_;
+  Nanoseconds step_;  ///< between the instants averaged
 };
 
 }  // namespace linescope

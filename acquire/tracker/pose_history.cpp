@@ -106,6 +106,10 @@ Result<void> validate(const PoseHistoryOptions& options) {
   if (options.longest_gap <= 0)
     return fail(ErrorCode::invalid,
                 fmt::format("pose history: longest_gap is {} ns, it must be positive", options.longest_gap));
+  if (options.mean_over < 0 || options.mean_over > options.longest_gap)
+    return fail(ErrorCode::invalid,
+                fmt::format("pose history: mean_over is {} ns, it must be 0 to longest_gap, {} ns",
+                            options.mean_over, options.longest_gap));
   return {};
 }
 

@@ -19,6 +19,9 @@ namespace linescope {
 struct PoseHistoryOptions {
   int capacity = 2048;                          ///< samples kept per station (8.5 s at 240 Hz); 2 or more
   Nanoseconds longest_gap = 50 * kMillisecond;  ///< two neighbours further apart are not interpolated
+  /// A picture's pose is the mean over this time about its instant (ToolPoseLookup); 0: the interpolated pose
+  /// alone.
+  Nanoseconds mean_over = 25 * kMillisecond;
 };
 Result<void> validate(const PoseHistoryOptions& options);
 
@@ -62,6 +65,8 @@ class PoseHistory {
 
   /// Consumer. The newest sample of a station; false when there is none.
   bool latest(int station, PoseSample& out) const;
+
+  const PoseHistoryOptions& options() const { return options_; }
 
   std::uint64_t rejected() const { return rejected_.load(std::memory_order_relaxed); }
 

@@ -40,19 +40,55 @@ TEST_F(ToolPosesTest, WaitsForEveryToolThatDelivers) {
   add(0, at_ms(0), 0);
   add(1, at_ms(0), 0);
   EXPECT_FALSE(lookup_.settled(at_ms(2)));
-  add(0, at_ms(4), 0);
+  add(0, at_ms(15), 0);
   EXPECT_FALSE(lookup_.settled(at_ms(2)))
       << "the object's sample is still to come; the harvester never delivered";
-  add(1, at_ms(4), 0);
+  add(1, at_ms(14), 0);
+  EXPECT_FALSE(lookup_.settled(at_ms(2))) << "the mean reaches 12.5 ms ahead";
+  add(1, at_ms(15), 0);
   EXPECT_TRUE(lookup_.settled(at_ms(2)));
+}
+
+TEST_F(ToolPosesTest, AHandThatMovesStraightOnIsWhereItWasAtTheInstant) {
+  for (int ms = 0; ms <= 40; ms += 4) add(0, at_ms(ms), 0.5 * ms);
+  EXPECT_NEAR(lookup_.at(at_ms(19)).endoscope.world_from_tool.translation().x(), 9.5, 1e-9);
+}
+
+TEST_F(ToolPosesTest, OneWildSampleCountsASeventh) {
+  for (int ms = 0; ms <= 40; ms += 4) add(0, at_ms(ms), ms == 20 ? 7 : 0);
+  PoseHistory plain({.mean_over = 0});
+  PoseSample sample;
+  for (std::uint64_t i = 0; i <= 10; ++i) {
+    sample.time = at_ms(static_cast<int>(4 * i));
+    sample.state = ToolState::ok;
+    sample.world_from_sensor = {Eigen::Quaterniond::Identity(), {i == 5 ? 7.0 : 0.0, 0, 0}};
+    ASSERT_TRUE(plain.add(sample));
+  }
+  const ToolPoseLookup alone(plain, StationRoles{}, 60 * kMillisecond);
+  EXPECT_NEAR(alone.at(at_ms(20)).endoscope.world_from_tool.translation().x(), 7, 1e-9);
+  // Samples are 4 ms apart, instants 4.17 ms: the neighbours do not touch the wild sample.
+  EXPECT_NEAR(lookup_.at(at_ms(20)).endoscope.world_from_tool.translation().x(), 1, 1e-9);
+}
+
+TEST(PoseMeanOptions, AMeanOverMoreThanAGapIsRefused) {
+  EXPECT_TRUE(validate(PoseHistoryOptions{.mean_over = 0}).has_value());
+  EXPECT_FALSE(validate(PoseHistoryOptions{.mean_over = -1}).has_value());
+  EXPECT_FALSE(validate(PoseHistoryOptions{.mean_over = kSecond}).has_value());
+}
+
+TEST_F(ToolPosesTest, AtTheEndOfTheHistoryTheMeanIsTakenOverWhatIsThere) {
+  for (int ms = 0; ms <= 20; ms += 4) add(0, at_ms(ms), ms);
+  const auto pose = lookup_.at(at_ms(18)).endoscope;
+  EXPECT_EQ(pose.state, ToolState::ok);
+  EXPECT_NEAR(pose.world_from_tool.translation().x(), 18, 1e-9);
 }
 
 TEST_F(ToolPosesTest, DoesNotWaitForASensorThatWentSilent) {
   add(0, at_ms(0), 0);
   add(1, at_ms(0), 0);
-  add(0, at_ms(10), 0);
+  add(0, at_ms(20), 0);
   EXPECT_FALSE(lookup_.settled(at_ms(5)));
-  add(0, at_ms(70), 0);
+  add(0, at_ms(90), 0);
   EXPECT_TRUE(lookup_.settled(at_ms(5)));
 }
 
