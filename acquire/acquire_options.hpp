@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "acquire/camera/line_exposure.hpp"
 #include "acquire/camera/v4l2_device.hpp"
 #include "acquire/laser/line_extractor_options.hpp"
+#include "acquire/logging.hpp"
 #include "acquire/reconstruct/line_reconstructor.hpp"
 #include "acquire/tracker/liberty/liberty_options.hpp"
 #include "acquire/tracker/pose_history.hpp"
@@ -31,18 +34,33 @@ enum class Pace : std::uint8_t {
 struct RunOptions {
   std::string segment = "linescope";
   std::string group;         ///< group that may read the segment; empty: only this user
-  int capacity_minutes = 5;  ///< scanning time the segment holds at 30 lines per second
+  double capacity_minutes = 5;  ///< scanning time the segment holds at 30 lines per second
   bool scan_at_start = false;
   Pace pace = Pace::real_time;
   std::filesystem::path record;  ///< folder to record everything to; empty: nothing is recorded
+  int keep_free_mb = 256;        ///< a recording pauses before the disk has less than this
   std::filesystem::path replay;  ///< recording to play instead of camera and tracker; empty: none
   bool exit_at_end = false;      ///< stop when a recorded source has given its last picture
 };
 
 struct CameraChoice {
-  std::string source = "twin";  ///< "twin", a folder, a video file, or a camera
-  V4l2Options device;
+  std::string source = "twin";  ///< "twin", a folder, a video file, a camera, or "none"
+  V4l2Options device;           ///< its exposure_ms is the start value of an automatic exposure
+  double exposure_ms = 0;       ///< 0: automatic for the laser line; -1: the camera's own; else fixed
+  LineExposureOptions line_exposure;
   double file_rate_hz = 30;  ///< pictures per second of a folder
+};
+
+/// The tracker's keys whose form in the file is not the one used inside: stations count from 1 there, as on
+/// the unit and on every screen, and lists may be empty.
+struct TrackerKeys {
+  int endoscope_station = 1;  ///< 0: none
+  int object_station = 2;
+  int harvester_station = 3;
+  std::vector<double> stations;  ///< enabled ones; empty: every station with a sensor
+  std::vector<double> hemisphere{1, 0, 0};
+  std::vector<double> position_filter;  ///< F, FLow, FHigh, Factor; empty: off
+  std::vector<double> attitude_filter;
 };
 
 struct TrackerChoice {
@@ -52,6 +70,9 @@ struct TrackerChoice {
   PoseHistoryOptions history;
   Nanoseconds longest_wait = 60 * kMillisecond;  ///< for the poses of a picture to arrive
 };
+
+/// Fills roles and LIBERTY options from the keys; the first fault in one sentence.
+Result<void> apply_keys(const TrackerKeys& keys, TrackerChoice& tracker);
 
 struct TwinChoice {
   std::int64_t seed = 1;
@@ -64,8 +85,10 @@ struct TwinChoice {
 
 struct AcquireOptions {
   RunOptions run;
+  LogOptions log;
   CameraChoice camera;
   TrackerChoice tracker;
+  TrackerKeys tracker_keys;  ///< as read; apply_keys() makes them count
   TwinChoice twin;
   std::string calibration;  ///< a file, "thesis-camera-i", "thesis-camera-ii"; empty: the twin's own
   LineExtractorOptions laser;

@@ -11,9 +11,11 @@ Acquisition::Acquisition(const AcquireOptions& options, Sources given, LineRecon
       history(options.tracker.history),
       poses(history, options.tracker.roles, options.tracker.longest_wait),
       scan(writer),
-      desk(writer, scan, *sources.camera, stop),
+      laser(options.camera.line_exposure, options.camera.exposure_ms, *sources.camera),
+      desk(writer, scan, laser, stop),
       state(*sources.camera, sources.tracker.get(), writer),
       pipeline(options.laser, std::move(reconstructor), poses, writer) {
+  state.watch(&laser);
   if (sources.tracker)
     intake = std::make_unique<PoseIntake>(*sources.tracker, options.tracker.roles, history, writer);
 }

@@ -6,6 +6,7 @@
 
 #include "acquire/acquire_options.hpp"
 #include "acquire/command_desk.hpp"
+#include "acquire/laser_watch.hpp"
 #include "acquire/line_pipeline.hpp"
 #include "acquire/pose_intake.hpp"
 #include "acquire/record/recorder.hpp"
@@ -32,6 +33,7 @@ class Acquisition {
   PoseHistory history;
   ToolPoseLookup poses;
   ScanControl scan;
+  LaserWatch laser;
   CommandDesk desk;
   StateReport state;
   LinePipeline pipeline;

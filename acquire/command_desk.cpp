@@ -15,9 +15,8 @@ CommandAnswer refused(std::string why) {
 
 }  // namespace
 
-CommandDesk::CommandDesk(SegmentWriter& writer, ScanControl& scan, CameraSource& camera,
-                         std::atomic<bool>& stop)
-    : scan_(scan), camera_(camera), stop_(stop), server_(writer), saver_(writer.name()) {}
+CommandDesk::CommandDesk(SegmentWriter& writer, ScanControl& scan, LaserWatch& laser, std::atomic<bool>& stop)
+    : scan_(scan), laser_(laser), stop_(stop), server_(writer), saver_(writer.name()) {}
 
 void CommandDesk::attend(Nanoseconds now) {
   finish_save();
@@ -76,7 +75,7 @@ void CommandDesk::finish_save() {
 }
 
 CommandAnswer CommandDesk::expose(double milliseconds) {
-  auto set = camera_.set_exposure(milliseconds);
+  auto set = laser_.expose(milliseconds);
   return set ? done() : refused(set.error().message);
 }
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <string>
 
-#include "acquire/camera/camera_source.hpp"
+#include "acquire/laser_watch.hpp"
 #include "acquire/record/recorder.hpp"
 #include "acquire/scan_control.hpp"
 #include "acquire/scan_saver.hpp"
@@ -15,7 +15,7 @@ namespace linescope {
 class CommandDesk {
  public:
   /// `stop` is set by the command shut down. All references must outlive the desk.
-  CommandDesk(SegmentWriter& writer, ScanControl& scan, CameraSource& camera, std::atomic<bool>& stop);
+  CommandDesk(SegmentWriter& writer, ScanControl& scan, LaserWatch& laser, std::atomic<bool>& stop);
 
   /// Every command becomes an event of the recording; null: none.
   void record_to(Recorder* recorder) { recorder_ = recorder; }
@@ -30,7 +30,7 @@ class CommandDesk {
   void finish_save();
 
   ScanControl& scan_;
-  CameraSource& camera_;
+  LaserWatch& laser_;
   std::atomic<bool>& stop_;
   ControlServer server_;
   ScanSaver saver_;

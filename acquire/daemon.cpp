@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "acquire/acquisition.hpp"
@@ -21,7 +22,7 @@ SegmentOptions segment_options(const RunOptions& run, const CameraModel& camera)
   o.name = run.segment;
   o.group = run.group;
   o.program = fmt::format("linescope-acquire {}", kVersion);
-  const auto lines = static_cast<std::uint32_t>(run.capacity_minutes * 60 * 30);
+  const auto lines = static_cast<std::uint32_t>(std::lround(run.capacity_minutes * 60 * 30));
   const auto profiles = static_cast<std::uint32_t>(std::max(camera.width, camera.height));
   o.line_capacity = lines;
   o.points_per_line = std::max(o.points_per_line, profiles);
@@ -46,13 +47,34 @@ RecordingInfo recording_info(const CommandLine& command, const Sources& sources)
   return info;
 }
 
+RecorderOptions recorder_options(const RunOptions& run) {
+  RecorderOptions o;
+  o.folder = run.record;
+  o.keep_free = static_cast<std::uint64_t>(run.keep_free_mb) << 20U;
+  return o;
+}
+
 ExitCode exit_of(const Error& segment_error) {
   return segment_error.code == ErrorCode::busy ? ExitCode::already_running : ExitCode::segment;
 }
 
-std::string description(const Sources& sources) {
-  return fmt::format("camera: {}\ntracker: {}\ncalibration: {}", sources.camera->description(),
-                     sources.tracker ? sources.tracker->description() : "none", sources.calibration.name);
+struct Description {
+  std::string camera, tracker, calibration;
+};
+
+Description description(const Sources& sources) {
+  const std::string tracker = sources.tracker ? sources.tracker->description() : "none";
+  return {sources.camera_found.empty() ? sources.camera->description() : sources.camera_found,
+          sources.tracker_found.empty() ? tracker : sources.tracker_found, sources.calibration.name};
+}
+
+/// A recording that could not begin is told before anything runs.
+Result<void> check_record_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (folder.empty() || !std::filesystem::exists(folder, error)) return {};
+  if (std::filesystem::is_empty(folder, error)) return {};
+  return fail(ErrorCode::busy,
+              fmt::format("recording folder {} is not empty; name a new one", folder.string()));
 }
 
 /// Ends the run when the heartbeat finds the segment taken over.
@@ -81,13 +103,15 @@ tl::expected<void, Refusal> run_daemon(const CommandLine& command, std::atomic<b
   const Heartbeat heartbeat(*writer);
   writer->publish_configuration(command.configuration);
   if (auto yaml = calibration_text(sources->calibration)) writer->publish_calibration(*yaml);
-  spdlog::info("segment {}\n{}", options.run.segment, description(*sources));
+  const Description what = description(*sources);
+  spdlog::info("segment {}, camera {}, tracker {}, calibration {}", options.run.segment, what.camera,
+               what.tracker, what.calibration);
   const bool live = sources->live;
   auto acquisition = Acquisition::create(options, std::move(*sources), *writer, stop);
   if (!acquisition) return Refused(Refusal{ExitCode::calibration, acquisition.error().message});
   if (!options.run.record.empty()) {
     auto recorder =
-        Recorder::start({.folder = options.run.record}, recording_info(command, (*acquisition)->sources));
+        Recorder::start(recorder_options(options.run), recording_info(command, (*acquisition)->sources));
     if (!recorder) return Refused(Refusal{ExitCode::failed, recorder.error().message});
     (*acquisition)->record_to(std::move(*recorder));
   }
@@ -97,15 +121,20 @@ tl::expected<void, Refusal> run_daemon(const CommandLine& command, std::atomic<b
     live ? run_live(**acquisition) : run_stepped(**acquisition);
   }
   writer->set_state(DaemonState::stopping, "the daemon ends");
+  spdlog::info("the daemon ends");
   if (heartbeat.lost())
     return Refused(Refusal{ExitCode::segment, "the segment was taken over or removed by somebody else"});
   return {};
 }
 
 tl::expected<std::string, Refusal> check_setup(const AcquireOptions& options) {
-  auto sources = make_sources(options, monotonic_now());
+  auto sources = make_sources(options, monotonic_now(), Begin::look);
   if (!sources) return Refused(sources.error());
-  std::string text = description(*sources);
+  if (auto folder = check_record_folder(options.run.record); !folder)
+    return Refused(Refusal{ExitCode::configuration, folder.error().message});
+  const Description what = description(*sources);
+  std::string text =
+      fmt::format("camera: {}\ntracker: {}\ncalibration: {}", what.camera, what.tracker, what.calibration);
   for (const std::string& note : sources->calibration.notes) text += "\nnote: " + note;
   return text;
 }

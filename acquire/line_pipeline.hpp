@@ -28,6 +28,9 @@ class LinePipeline {
   /// First half, as soon as the picture is there: extraction, live picture.
   void show(const Frame& frame);
 
+  /// The line of the picture shown last. Precondition: show() was called.
+  const ExtractedLine& line() const { return *line_; }
+
   /// Second half, when the poses are settled: the line of the picture shown last.
   void place(const Frame& frame);
 

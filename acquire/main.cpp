@@ -1,12 +1,10 @@
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 
-#include "acquire/camera/camera_list.hpp"
 #include "acquire/daemon.hpp"
+#include "acquire/device_list.hpp"
+#include "acquire/logging.hpp"
 
 namespace {
 
@@ -26,16 +24,12 @@ void catch_signals() {
 }
 
 int refuse(const linescope::Refusal& refusal) {
-  std::fprintf(stderr, "linescope-acquire: %s\n", refusal.message.c_str());
+  linescope::log_refusal(refusal);
   return linescope::exit_status(refusal.exit);
 }
 
 int list_devices() {
-  const auto cameras = linescope::list_cameras();
-  if (cameras.empty()) std::puts("no camera: no /dev/video* on this machine");
-  for (const auto& camera : cameras)
-    std::printf("camera %s  %s  %s\n", camera.path.c_str(), camera.name.c_str(),
-                camera.usable() ? "usable" : camera.obstacle.c_str());
+  std::fputs(linescope::list_text(linescope::list_cameras(), linescope::find_trackers()).c_str(), stdout);
   return 0;
 }
 
@@ -48,6 +42,8 @@ int check(const linescope::AcquireOptions& options) {
 
 int run(const linescope::CommandLine& command) {
   catch_signals();
+  if (auto log = linescope::open_log(command.options.log); !log)
+    return refuse({linescope::ExitCode::configuration, log.error().message});
   const auto outcome = linescope::run_daemon(command, stop_requested);
   return outcome ? 0 : refuse(outcome.error());
 }
@@ -56,7 +52,8 @@ int run(const linescope::CommandLine& command) {
 
 int main(int argc, char** argv) {
   // Standard output belongs to answers; everything that is said along the way goes to standard error.
-  spdlog::set_default_logger(spdlog::stderr_color_mt("linescope-acquire"));
+  if (auto log = linescope::open_log({}); !log)
+    return refuse({linescope::ExitCode::failed, log.error().message});
   const auto command = linescope::read_command_line(argc, argv);
   if (!command) return refuse(command.error());
   using Task = linescope::CommandLine::Task;

@@ -22,7 +22,7 @@ PoseIntake::PoseIntake(const TrackerSource& tracker, const StationRoles& roles, 
   reported_.fill(ToolState::never_seen);
 }
 
-void PoseIntake::take(const PoseSample& sample) {
+void PoseIntake::admit(const PoseSample& sample) {
   writer_.count(Counter::tracker_samples_received);
   if (sample.station >= kMaxStations) return writer_.count(Counter::tracker_samples_unknown_station);
   if (usable(sample.state) && !sample.world_from_sensor.finite())
@@ -33,10 +33,16 @@ void PoseIntake::take(const PoseSample& sample) {
   if (sample.state == ToolState::ok) last_good_[sample.station] = sample.time;
   const Nanoseconds begin = monotonic_now();
   writer_.publish_pose(sample);
-  writer_.count(Counter::tracker_samples_published);
   const Nanoseconds end = monotonic_now();
   writer_.record_latency(LatencyStage::publish_pose, end - begin);
   if (end > sample.time) writer_.record_latency(LatencyStage::pose_total, end - sample.time);
+}
+
+void PoseIntake::take(const PoseSample& sample) {
+  admit(sample);
+  if (sample.station >= kMaxStations || sample.state == reported_[sample.station]) return;
+  reported_[sample.station] = sample.state;
+  report_station(sample.station, monotonic_now());
 }
 
 void PoseIntake::note(const Error& error) {
@@ -45,32 +51,41 @@ void PoseIntake::note(const Error& error) {
 }
 
 void PoseIntake::report(Nanoseconds now) {
-  const bool due = now - last_report_ >= kReportEvery;
-  for (int station = 0; station < kMaxStations; ++station) {
-    const auto i = static_cast<std::size_t>(station);
-    const ToolState state = tracker_.station(station).state;
-    if (due || state != reported_[i]) report_station(station, now);
-    reported_[i] = state;
-  }
-  if (!due) return;
-  count_losses();
+  if (now - last_report_ < kReportEvery) return;
   last_report_ = now;
+  for (int station = 0; station < kMaxStations; ++station) report_station(station, now);
+  report_device();
+  count_losses();
 }
 
 void PoseIntake::report_station(int station, Nanoseconds now) {
-  const StationStatus s = tracker_.station(station);
+  StationStatus s = tracker_.station(station);
   const SensorRole role = role_of(station, roles_);
   if (s.state == ToolState::never_seen && role == SensorRole::other) return;
-  SensorStatus out;
+  SensorStatus& out = outgoing_;
   out.role = role;
   out.state = s.state;
   out.time = now;
   out.last_good = last_good_[static_cast<std::size_t>(station)];
   out.samples = s.samples;
   out.lost = s.lost;
+  out.nominal_hz = static_cast<float>(tracker_.nominal_hz());
   out.name = name(role);
-  out.reason = s.reason.empty() && s.state != ToolState::ok ? complaint_ : s.reason;
+  out.reason = s.reason.empty() && s.state != ToolState::ok ? complaint_ : std::move(s.reason);
   writer_.set_sensor_status(station, out);
+}
+
+/// The unit's own words go to the log when something happened to it; the residual of its clock is a figure.
+void PoseIntake::report_device() {
+  const TrackerFigures figures = tracker_.figures();
+  if (figures.clock_residual > 0) writer_.record_latency(LatencyStage::tracker_clock, figures.clock_residual);
+  const TrackerCounters now = tracker_.counters();
+  if (!said_.empty() && now.reconnects == counted_.reconnects && now.device_errors == counted_.device_errors)
+    return;
+  const std::string sentence = tracker_.status().sentence;
+  if (sentence.empty() || sentence == said_) return;
+  said_ = sentence;
+  spdlog::info("tracker: {}", sentence);
 }
 
 void PoseIntake::count_losses() {

@@ -24,12 +24,15 @@ class PoseIntake {
   /// A complaint of the source about its input.
   void note(const Error& error);
 
-  /// Publishes each sensor's state when it changed, and at least every 100 ms; call it often.
+  /// Publishes every sensor's state and what was lost, at most every 100 ms; call it often. A state that
+  /// changes with a sample is published with it.
   void report(Nanoseconds now);
 
  private:
+  void admit(const PoseSample& sample);
   void report_station(int station, Nanoseconds now);
   void count_losses();
+  void report_device();
 
   const TrackerSource& tracker_;
   StationRoles roles_;
@@ -38,6 +41,8 @@ class PoseIntake {
   std::array<Nanoseconds, kMaxStations> last_good_{};
   std::array<ToolState, kMaxStations> reported_{};
   std::string complaint_;
+  std::string said_;       ///< the tracker's last sentence in the log
+  SensorStatus outgoing_;  ///< its texts keep their memory
   TrackerCounters counted_;
   Nanoseconds last_report_ = 0;
 };

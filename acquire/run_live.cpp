@@ -32,6 +32,7 @@ void take_picture(Acquisition& a, const Frame& frame) {
   if (a.recorder) a.recorder->add(frame);
   a.state.frame(frame);
   a.pipeline.show(frame);
+  a.laser.look(a.pipeline.line());
   if (a.intake && a.scan.scanning()) wait_for_poses(a, a.pipeline.instant(frame));
   a.pipeline.place(frame);
 }

@@ -91,6 +91,7 @@ class SteppedRun {
     if (a_.recorder) a_.recorder->add(frame_.item);
     a_.state.frame(frame_.item);
     a_.pipeline.show(frame_.item);
+    a_.laser.look(a_.pipeline.line());
     a_.pipeline.place(frame_.item);
     frame_.full = false;
     attend();

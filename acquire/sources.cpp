@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "acquire/camera/camera_choice.hpp"
+#include "acquire/camera/camera_list.hpp"
+#include "acquire/camera/no_camera.hpp"
 #include "acquire/camera/picture_folder.hpp"
 #include "acquire/record/recorded_camera.hpp"
 #include "acquire/record/recorded_tracker.hpp"
 #include "acquire/record/recording.hpp"
 #include "acquire/tracker/csv_reader.hpp"
+#include "acquire/tracker/liberty/find_trackers.hpp"
 #include "acquire/tracker/liberty/liberty_source.hpp"
 #include "acquire/tracker/picture_pose_source.hpp"
 #include "acquire/tracker/timed_pose_source.hpp"
@@ -72,13 +76,15 @@ Result<void> write_truth(const twin::VirtualExperiment& experiment, const TwinCh
   return {};
 }
 
-tl::expected<Sources, Refusal> twin_sources(const AcquireOptions& options, Nanoseconds start) {
+tl::expected<Sources, Refusal> twin_sources(const AcquireOptions& options, Nanoseconds start, Begin begin) {
   auto chosen = twin_options(options.twin, start);
   if (!chosen) return refuse(ExitCode::configuration, chosen.error().message);
   auto experiment = twin::VirtualExperiment::create(*chosen);
   if (!experiment) return refuse(ExitCode::configuration, experiment.error().message);
-  if (auto truth = write_truth(**experiment, options.twin); !truth)
-    return refuse(ExitCode::configuration, truth.error().message);
+  if (begin == Begin::start) {
+    if (auto truth = write_truth(**experiment, options.twin); !truth)
+      return refuse(ExitCode::configuration, truth.error().message);
+  }
   Sources sources;
   sources.camera = std::make_unique<twin::TwinCamera>(*experiment);
   sources.tracker = std::make_unique<twin::TwinTracker>(*experiment);
@@ -90,13 +96,27 @@ tl::expected<Sources, Refusal> twin_sources(const AcquireOptions& options, Nanos
 // --- files and devices
 // ----------------------------------------------------------------------------------------------
 
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// What a camera is opened with: automatic exposure for the line begins in the middle of its range.
+double start_exposure(const CameraChoice& camera) {
+  if (camera.exposure_ms < 0) return 0;
+  if (camera.exposure_ms > 0) return camera.exposure_ms;
+  return std::sqrt(camera.line_exposure.min_exposure_ms * camera.line_exposure.max_exposure_ms);
+}
+
 Result<std::unique_ptr<CameraSource>> camera_source(const AcquireOptions& options, const CameraModel& camera,
                                                     Nanoseconds start) {
   CameraOptions o;
+  if (options.camera.source == "none") return std::make_unique<NoCamera>();
   o.source = options.camera.source;
   o.device = options.camera.device;
+  o.device.exposure_ms = start_exposure(options.camera);
   o.start_time = start;
-  if (fs::is_directory(o.source)) o.period = file_period(options.camera);
+  if (is_folder(o.source)) o.period = file_period(options.camera);
   o.width = camera.width;
   o.height = camera.height;
   return make_camera(o);
@@ -129,7 +149,7 @@ Result<std::unique_ptr<TrackerSource>> pose_file(const AcquireOptions& options, 
   auto by_picture = names_pictures(file);
   if (!by_picture) return tl::unexpected(by_picture.error());
   if (!*by_picture) return std::make_unique<TimedPoseSource>(file, TimedPoseOptions{.first_row_at = start});
-  if (!fs::is_directory(options.camera.source)) {
+  if (!is_folder(options.camera.source)) {
     return fail(ErrorCode::mismatch, fmt::format("pose file {} names pictures, but the camera is \"{}\": "
                                                  "poses by picture need a folder of pictures",
                                                  file.string(), options.camera.source));
@@ -140,7 +160,51 @@ Result<std::unique_ptr<TrackerSource>> pose_file(const AcquireOptions& options, 
                                              PicturePoseOptions{.station = options.tracker.roles.endoscope});
 }
 
-tl::expected<Sources, Refusal> other_sources(const AcquireOptions& options, Nanoseconds start) {
+/// A device that is only looked for, everything else is started: files are read then.
+Result<void> begin_camera(Sources& sources, const AcquireOptions& options, Begin begin) {
+  if (begin == Begin::start || !sources.camera->live() || options.camera.source == "none")
+    return sources.camera->start();
+  auto found = choose_camera(options.camera.source, list_cameras());
+  if (!found) return tl::unexpected(found.error());
+  sources.camera_found = fmt::format("{} ({})", found->path, found->name);
+  return {};
+}
+
+Result<void> begin_tracker(Sources& sources, const AcquireOptions& options, Begin begin) {
+  if (!sources.tracker) return {};
+  if (begin == Begin::start || !sources.tracker->live()) return sources.tracker->start();
+  auto found = look_for_liberty(options.tracker.liberty);
+  if (!found) return tl::unexpected(found.error());
+  sources.tracker_found = "LIBERTY on " + *found;
+  return {};
+}
+
+tl::expected<void, Refusal> choose_tracker(Sources& sources, const AcquireOptions& options,
+                                           Nanoseconds start) {
+  const std::string& source = options.tracker.source;
+  if (source == "none") return {};
+  const bool live = source == "liberty";
+  if (live && !sources.camera->live()) {
+    return refuse(ExitCode::configuration,
+                  "recorded pictures and a live tracker do not belong to one instant: choose a camera, or "
+                  "a file of poses");
+  }
+  if (!live && sources.camera->live()) {
+    return refuse(ExitCode::configuration,
+                  "a live camera and recorded poses do not belong to one instant: choose tracker \"liberty\" "
+                  "or \"none\"");
+  }
+  if (live) {
+    sources.tracker = std::make_unique<LibertySource>(options.tracker.liberty);
+    return {};
+  }
+  auto tracker = pose_file(options, sources.calibration.camera_latency, start);
+  if (!tracker) return refuse(ExitCode::tracker, tracker.error().message);
+  sources.tracker = std::move(*tracker);
+  return {};
+}
+
+tl::expected<Sources, Refusal> other_sources(const AcquireOptions& options, Nanoseconds start, Begin begin) {
   Sources sources;
   auto calibration = named_calibration(options.calibration);
   if (!calibration) return refuse(ExitCode::calibration, calibration.error().message);
@@ -149,25 +213,9 @@ tl::expected<Sources, Refusal> other_sources(const AcquireOptions& options, Nano
   if (!camera) return refuse(ExitCode::camera, camera.error().message);
   sources.camera = std::move(*camera);
   // Started before the poses are read: a folder without pictures is the camera's fault, not the pose file's.
-  if (auto ok = sources.camera->start(); !ok) return refuse(ExitCode::camera, ok.error().message);
-  if (options.tracker.source == "none") return sources;
-  if (options.tracker.source == "liberty") {
-    if (!sources.camera->live()) {
-      return refuse(ExitCode::configuration,
-                    "recorded pictures and a live tracker do not belong to one instant: choose a camera, or "
-                    "a file of poses");
-    }
-    sources.tracker = std::make_unique<LibertySource>(options.tracker.liberty);
-    return sources;
-  }
-  if (sources.camera->live()) {
-    return refuse(ExitCode::configuration,
-                  "a live camera and recorded poses do not belong to one instant: choose tracker \"liberty\" "
-                  "or \"none\"");
-  }
-  auto tracker = pose_file(options, sources.calibration.camera_latency, start);
-  if (!tracker) return refuse(ExitCode::tracker, tracker.error().message);
-  sources.tracker = std::move(*tracker);
+  if (auto ok = begin_camera(sources, options, begin); !ok)
+    return refuse(ExitCode::camera, ok.error().message);
+  if (auto chosen = choose_tracker(sources, options, start); !chosen) return Refused(chosen.error());
   return sources;
 }
 
@@ -182,15 +230,15 @@ tl::expected<Sources, Refusal> replayed_sources(const std::filesystem::path& fol
   return sources;
 }
 
-tl::expected<Sources, Refusal> chosen_sources(const AcquireOptions& options, Nanoseconds start) {
+tl::expected<Sources, Refusal> chosen_sources(const AcquireOptions& options, Nanoseconds start, Begin begin) {
   if (!options.run.replay.empty()) return replayed_sources(options.run.replay);
-  return is_twin(options) ? twin_sources(options, start) : other_sources(options, start);
+  return is_twin(options) ? twin_sources(options, start, begin) : other_sources(options, start, begin);
 }
 
 }  // namespace
 
-tl::expected<Sources, Refusal> make_sources(const AcquireOptions& options, Nanoseconds start) {
-  auto sources = chosen_sources(options, start);
+tl::expected<Sources, Refusal> make_sources(const AcquireOptions& options, Nanoseconds start, Begin begin) {
+  auto sources = chosen_sources(options, start, begin);
   if (!sources) return sources;
   const bool brings_its_own = is_twin(options) || !options.run.replay.empty();
   if (brings_its_own && !options.calibration.empty()) {
@@ -199,9 +247,8 @@ tl::expected<Sources, Refusal> make_sources(const AcquireOptions& options, Nanos
     sources->calibration = std::move(*calibration);
   }
   if (auto ok = validate(sources->calibration); !ok) return refuse(ExitCode::calibration, ok.error().message);
-  if (sources->tracker) {
-    if (auto ok = sources->tracker->start(); !ok) return refuse(ExitCode::tracker, ok.error().message);
-  }
+  if (auto ok = begin_tracker(*sources, options, begin); !ok)
+    return refuse(ExitCode::tracker, ok.error().message);
   sources->live = sources->camera->live() || (sources->tracker && sources->tracker->live());
   return sources;
 }

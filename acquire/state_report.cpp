@@ -1,5 +1,6 @@
 #include "acquire/state_report.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -8,6 +9,9 @@ namespace linescope {
 namespace {
 
 constexpr Nanoseconds kReportEvery = 100 * kMillisecond;
+
+/// So long an unusable picture is the camera's reason although others are good again.
+constexpr Nanoseconds kComplaintStands = 5 * kSecond;
 
 ToolState tool_state(CameraState state) {
   switch (state) {
@@ -27,10 +31,8 @@ ToolState tool_state(CameraState state) {
 std::pair<DaemonState, std::string> daemon_state(const CameraStatus& camera, const TrackerSource* tracker,
                                                  const SegmentWriter& writer) {
   if (camera.state == CameraState::disconnected) return {DaemonState::camera_lost, camera.reason};
-  if (tracker != nullptr && tracker->live()) {
-    TrackerStatus status = tracker->status();
-    if (!status.delivering) return {DaemonState::tracker_lost, std::move(status.sentence)};
-  }
+  if (tracker != nullptr && tracker->live() && !tracker->figures().delivering)
+    return {DaemonState::tracker_lost, tracker->status().sentence};
   if (writer.full()) return {DaemonState::full, "the segment is full: save, then clear or begin a new scan"};
   if (camera.state == CameraState::ended) return {DaemonState::idle, "the recording is through"};
   return {writer.scanning() ? DaemonState::scanning : DaemonState::idle, {}};
@@ -47,6 +49,7 @@ StateReport::StateReport(const CameraSource& camera, const TrackerSource* tracke
 
 void StateReport::note(const Error& error) {
   complaint_ = error.message;
+  complaint_at_ = monotonic_now();
   spdlog::warn("camera: {}", error.message);
 }
 
@@ -64,19 +67,34 @@ void StateReport::update(Nanoseconds now) {
     return;
   const CameraStatus status = camera_.status();
   report_camera(status, now);
-  report_daemon(status);
+  report_daemon(status, now);
   count_losses(status.counters);
   last_report_ = now;
 }
 
 void StateReport::report_camera(const CameraStatus& status, Nanoseconds now) {
+  log_remarks(status);
   report_.time = now;
   report_.state = tool_state(status.state);
-  report_.reason = status.reason.empty() ? complaint_ : status.reason;
+  if (laser_ != nullptr) {
+    laser_->camera_has(status.exposure_ms);
+    laser_->describe(report_.reason);
+    report_.exposure_ms = static_cast<float>(laser_->exposure_ms());
+  }
+  const bool complains = !complaint_.empty() && now - complaint_at_ < kComplaintStands;
+  if (report_.state != ToolState::ok || complains)
+    report_.reason = status.reason.empty() ? complaint_ : status.reason;
   writer_.set_camera_status(report_);
 }
 
-void StateReport::report_daemon(const CameraStatus& status) {
+/// Settings that the camera did not take: once each time they change.
+void StateReport::log_remarks(const CameraStatus& status) {
+  if (status.remarks == remarks_) return;
+  remarks_ = status.remarks;
+  for (const std::string& remark : remarks_) spdlog::warn("camera: {}", remark);
+}
+
+void StateReport::report_daemon(const CameraStatus& status, Nanoseconds now) {
   auto [state, reason] = daemon_state(status, tracker_, writer_);
   if (recorder_ != nullptr) {
     const RecorderStatus recording = recorder_->status();
@@ -84,7 +102,10 @@ void StateReport::report_daemon(const CameraStatus& status) {
     if (reason.empty()) reason = recording.reason;
   }
   if (state == state_ && reason == reason_) return;
-  spdlog::info("{}{}{}", name(state), reason.empty() ? "" : ": ", reason);
+  const auto level = reason.empty() ? spdlog::level::info : spdlog::level::warn;
+  spdlog::log(level, "{}{}{}", name(state), reason.empty() ? "" : ": ", reason);
+  if (recorder_ != nullptr)
+    recorder_->add_event(now, fmt::format("state {}{}{}", name(state), reason.empty() ? "" : ": ", reason));
   state_ = state;
   reason_ = std::move(reason);
   writer_.set_state(state_, reason_);
@@ -103,6 +124,7 @@ void StateReport::count_losses(const CameraCounters& now) {
   add(Counter::frames_unreadable, &CameraCounters::unreadable);
   add(Counter::frames_wrong_size, &CameraCounters::mismatched);
   add(Counter::frames_overrun, &CameraCounters::overrun);
+  add(Counter::frames_late, &CameraCounters::late);
   add(Counter::camera_reconnects, &CameraCounters::disconnected);
   counted_ = now;
 }

@@ -53,7 +53,8 @@ struct CameraCounters {
 
 struct CameraStatus {
   CameraState state = CameraState::not_started;
-  std::string reason;  ///< one sentence when the state is not `ok`, for example why it is disconnected
+  std::string reason;      ///< one sentence when the state is not `ok`, for example why it is disconnected
+  double exposure_ms = 0;  ///< what the camera says it has; 0: unknown, or its own automatic
   std::vector<std::string> remarks;  ///< what the camera did not accept, one sentence each
   CameraCounters counters;
 };

@@ -37,6 +37,9 @@ class CaptureDevice {
   /// Refused values are an error that says what the camera has instead.
   virtual Result<void> set_exposure(double milliseconds) = 0;
   virtual Result<void> set_gain(double gain) = 0;
+
+  /// Exposure time that the camera has now, ms; 0: it does not say, or sets it itself.
+  virtual double exposure_ms() const { return 0; }
 };
 
 }  // namespace linescope

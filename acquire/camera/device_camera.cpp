@@ -98,6 +98,7 @@ void DeviceCamera::opened(OpenedDevice device) {
   description_ = std::move(device.description);
   period_ = device.period;
   status_.remarks = std::move(device.remarks);
+  status_.exposure_ms = device_->exposure_ms();
   status_.state = CameraState::waiting;
   status_.reason = "open, no picture yet";
 }
@@ -178,7 +179,11 @@ void DeviceCamera::apply_requests() {
     const std::lock_guard lock(mutex_);
     remark = result ? "" : result.error().message;
   };
-  if (exposure) note(device_->set_exposure(*exposure), exposure_remark_);
+  if (exposure) {
+    note(device_->set_exposure(*exposure), exposure_remark_);
+    const std::lock_guard lock(mutex_);
+    status_.exposure_ms = device_->exposure_ms();
+  }
   if (gain) note(device_->set_gain(*gain), gain_remark_);
 }
 

@@ -129,11 +129,22 @@ const ExposureAdvice& LineExposureController::update(const LineLight& light) {
     --settling_;
     return advice_;
   }
-  const ExposureAdvice step = advise_exposure(light, advice_.exposure_ms, options_);
+  ExposureAdvice step = advise_exposure(light, advice_.exposure_ms, options_);
+  if (!may_change_) {
+    step.exposure_ms = advice_.exposure_ms;
+    step.hint = laser_hint(light, options_);
+  }
   show(step.hint);
   advice_.reason = step.reason;
   if (step.exposure_ms != advice_.exposure_ms) exposure_is(step.exposure_ms);
   return advice_;
+}
+
+void LineExposureController::limited_to(double exposure_ms) {
+  const bool too_short = exposure_ms < advice_.exposure_ms;
+  if (too_short && exposure_ms > options_.min_exposure_ms) options_.max_exposure_ms = exposure_ms;
+  if (!too_short && exposure_ms < options_.max_exposure_ms) options_.min_exposure_ms = exposure_ms;
+  exposure_is(exposure_ms);
 }
 
 void LineExposureController::show(LaserHint hint) {

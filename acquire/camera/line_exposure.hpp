@@ -72,11 +72,22 @@ class LineExposureController {
   /// The exposure was set by somebody else, or the camera took another value than was asked.
   void exposure_is(double exposure_ms);
 
+  /// False: the exposure stays as it is, only the hint follows the light.
+  void may_change(bool yes) { may_change_ = yes; }
+
+  /// True while the pictures may still be those of the exposure before.
+  bool settling() const { return settling_ > 0; }
+
+  /// The camera has `exposure_ms` although another one was asked: that is as far as it goes in this
+  /// direction.
+  void limited_to(double exposure_ms);
+
  private:
   void show(LaserHint hint);
 
   LineExposureOptions options_;
   ExposureAdvice advice_;
+  bool may_change_ = true;
   int settling_ = 0;
   LaserHint coming_ = LaserHint::fine;
   int seen_ = 0;  ///< pictures in a row that gave `coming_`

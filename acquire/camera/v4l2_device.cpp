@@ -43,6 +43,7 @@ class V4l2Device final : public CaptureDevice {
   Result<Pull> read(cv::Mat& bgr, Nanoseconds& stamp) override;
   Result<void> set_exposure(double milliseconds) override;
   Result<void> set_gain(double gain) override;
+  double exposure_ms() const override { return exposure_ms_; }
 
  private:
   /// In a vector, because that is how OpenCV waits with a time limit.
@@ -53,12 +54,14 @@ class V4l2Device final : public CaptureDevice {
   OpenedDevice configure();
   void configure_picture(std::vector<std::string>& remarks);
   void configure_colour(std::vector<std::string>& remarks);
+  Result<void> lock_white_balance();
   Result<void> set_control(int property, double value, double unit, std::string_view what);
   bool wait_for_picture();
   Result<Pull> retrieve(cv::Mat& bgr);
 
   V4l2Options options_;
-  CameraInfo info_;  ///< of the camera once it was opened
+  CameraInfo info_;         ///< of the camera once it was opened
+  double exposure_ms_ = 0;  ///< as the camera has it; 0: it sets it itself
   std::vector<cv::VideoCapture> streams_ = std::vector<cv::VideoCapture>(1);
   std::vector<int> ready_;
   cv::Mat raw_;
@@ -144,11 +147,20 @@ void V4l2Device::configure_colour(std::vector<std::string>& remarks) {
     note(set_exposure(options_.exposure_ms));
   } else {
     camera().set(cv::CAP_PROP_AUTO_EXPOSURE, kExposureAutomatic);
+    exposure_ms_ = 0;
   }
   if (options_.gain >= 0) note(set_gain(options_.gain));
-  if (options_.white_balance_k <= 0) return;
+  if (options_.white_balance_k >= 0) note(lock_white_balance());
+}
+
+/// A white balance that follows the picture turns the laser's colour with it. Cameras without the control
+/// have nothing to lock.
+Result<void> V4l2Device::lock_white_balance() {
   camera().set(cv::CAP_PROP_AUTO_WB, 0);
-  note(set_control(cv::CAP_PROP_WB_TEMPERATURE, options_.white_balance_k, 1, "white balance (K)"));
+  if (camera().get(cv::CAP_PROP_AUTO_WB) > 0)
+    return fail(ErrorCode::unsupported, "the camera's automatic white balance cannot be switched off");
+  if (options_.white_balance_k == 0) return {};
+  return set_control(cv::CAP_PROP_WB_TEMPERATURE, options_.white_balance_k, 1, "white balance (K)");
 }
 
 Result<void> V4l2Device::set_control(int property, double value, double unit, std::string_view what) {
@@ -164,7 +176,9 @@ Result<void> V4l2Device::set_control(int property, double value, double unit, st
 Result<void> V4l2Device::set_exposure(double milliseconds) try {
   options_.exposure_ms = milliseconds;
   camera().set(cv::CAP_PROP_AUTO_EXPOSURE, kExposureManual);
-  return set_control(cv::CAP_PROP_EXPOSURE, milliseconds, kExposureUnitsPerMillisecond, "exposure (ms)");
+  auto set = set_control(cv::CAP_PROP_EXPOSURE, milliseconds, kExposureUnitsPerMillisecond, "exposure (ms)");
+  exposure_ms_ = std::max(camera().get(cv::CAP_PROP_EXPOSURE), 0.0) / kExposureUnitsPerMillisecond;
+  return set;
 } catch (const cv::Exception& error) {
   return fail(ErrorCode::gone, error.err);
 }
@@ -231,9 +245,10 @@ Result<void> validate(const V4l2Options& options) {
         fmt::format("an exposure of {} ms is not between 0 (automatic) and 10000 ms", options.exposure_ms));
   }
   const bool locked = options.white_balance_k >= 1000 && options.white_balance_k <= 20'000;
-  if (options.white_balance_k != 0 && !locked) {
+  if (options.white_balance_k != 0 && options.white_balance_k != -1 && !locked) {
     return fail(ErrorCode::invalid,
-                fmt::format("a white balance of {} K is neither 0 (automatic) nor between 1000 and 20000 K",
+                fmt::format("a white balance of {} K is neither -1 (automatic), 0 (locked as it is) nor "
+                            "between 1000 and 20000 K",
                             options.white_balance_k));
   }
   return {};

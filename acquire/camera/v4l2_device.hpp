@@ -16,9 +16,9 @@ struct V4l2Options {
   int height = 480;               ///< px
   double rate_hz = 30;            ///< pictures per second
   std::string pixel_format = {};  ///< four characters, for example "MJPG"; empty: the camera's choice
-  double exposure_ms = 0;         ///< 0: automatic
+  double exposure_ms = 0;         ///< 0: the camera's own automatic
   double gain = -1;               ///< camera's unit; -1: left as it is
-  double white_balance_k = 0;     ///< locked at this colour temperature, kelvin; 0: automatic stays on
+  double white_balance_k = 0;     ///< locked at this colour temperature, kelvin; 0: as it is; -1: automatic
 };
 
 /// First fault of the options in one sentence.

@@ -108,7 +108,7 @@ void PicturePoseSource::describe() {
       fmt::format("{} pictures, poses of {} from {}", pictures_.size(), rows_.size(), file_.string());
   if (missing > 0)
     sentence += fmt::format("; {} pictures without a pose, {} of them for a bad row", missing, bad);
-  ledger_.edit([&](TrackerLedger::Books& books) { books.status = {true, sentence, 0, 0}; });
+  ledger_.edit([&](TrackerLedger::Books& books) { books.status = {{true, 0, 0}, sentence}; });
 }
 
 Result<Pull> PicturePoseSource::next(PoseSample& out) {

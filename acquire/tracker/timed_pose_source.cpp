@@ -21,7 +21,7 @@ Result<void> TimedPoseSource::start() {
   rows_ = std::move(*rows);
   pending_.clear();
   pending_.reserve(2);
-  ledger_.edit([&](TrackerLedger::Books& books) { books.status = {true, description(), 0, 0}; });
+  ledger_.edit([&](TrackerLedger::Books& books) { books.status = {{true, 0, 0}, description()}; });
   return {};
 }
 
@@ -53,7 +53,7 @@ Result<bool> TimedPoseSource::read_row() {
     ended_ = true;
     ledger_.edit([&](TrackerLedger::Books& books) {
       ++books.counters.out_of_order;
-      books.status = {false, order.error().message, 0, 0};
+      books.status = {{false, 0, 0}, order.error().message};
     });
     return tl::unexpected(order.error());
   }

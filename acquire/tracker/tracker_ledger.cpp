@@ -26,6 +26,11 @@ TrackerStatus TrackerLedger::status() const {
   return books_.status;
 }
 
+TrackerFigures TrackerLedger::figures() const {
+  const std::lock_guard lock(mutex_);
+  return books_.status;
+}
+
 StationStatus TrackerLedger::station(int station) const {
   if (station < 0 || station >= kMaxStations) return {};
   const std::lock_guard lock(mutex_);

@@ -29,6 +29,7 @@ class TrackerLedger {
   void count(const PoseSample& sample);
 
   TrackerStatus status() const;
+  TrackerFigures figures() const;
   StationStatus station(int station) const;
   TrackerCounters counters() const;
 

@@ -35,16 +35,19 @@ struct TrackerCounters {
   std::uint64_t reconnects = 0;       ///< times the device was started again after the first time
 };
 
-/// The device as a whole.
-struct TrackerStatus {
+/// The device as a whole, in numbers.
+struct TrackerFigures {
   bool delivering = false;         ///< samples are coming or may come at any moment
-  std::string sentence;            ///< what it does, or why it does not deliver and what to do about it
   double rate_hz = 0;              ///< measured cycles per second; 0 while unknown or meaningless
   Nanoseconds clock_residual = 0;  ///< typical distance of an arrival from the clock fit; 0 while unknown
 };
 
-/// Threads: all calls from one thread, except status(), station() and counters(), which any thread may call
-/// at any time after construction.
+struct TrackerStatus : TrackerFigures {
+  std::string sentence;  ///< what it does, or why it does not deliver and what to do about it
+};
+
+/// Threads: all calls from one thread, except status(), figures(), station() and counters(), which any thread
+/// may call at any time after construction.
 ///
 /// A live source (live() == true) delivers as things happen and next() waits at most 50 ms. A stepped source
 /// hands out its samples in time order, at once, and never sleeps: the caller paces it.
@@ -63,8 +66,12 @@ class TrackerSource {
 
   virtual bool live() const = 0;
   virtual std::string description() const = 0;
+  /// Samples per second and station that the device is set to; 0: unknown. After start().
+  virtual double nominal_hz() const { return 0; }
 
   virtual TrackerStatus status() const = 0;
+  /// The same without its text. A live source allocates nothing here.
+  virtual TrackerFigures figures() const { return status(); }
   /// `station` 0 .. kMaxStations-1.
   virtual StationStatus station(int station) const = 0;
   virtual TrackerCounters counters() const = 0;

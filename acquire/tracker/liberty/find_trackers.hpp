@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "acquire/tracker/liberty/liberty_options.hpp"
 #include "common/result.hpp"
 
 namespace linescope {
@@ -20,5 +21,9 @@ struct TrackerFinding {
 /// that is allowed, and closed again at once; nothing is sent to them. Fails when USB cannot be used at all
 /// on this machine.
 Result<std::vector<TrackerFinding>> find_trackers();
+
+/// Whether the LIBERTY that the options mean is there and can be opened; nothing is sent to it. Returns where
+/// it was found; fails as its start would.
+Result<std::string> look_for_liberty(const LibertyOptions& options);
 
 }  // namespace linescope

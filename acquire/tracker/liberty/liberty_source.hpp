@@ -38,7 +38,9 @@ class LibertySource : public TrackerSource, private SampleSink {
   Result<Pull> next(PoseSample& out) override;
   bool live() const override { return true; }
   std::string description() const override;
+  double nominal_hz() const override { return options_.rate_hz; }
   TrackerStatus status() const override { return ledger_.status(); }
+  TrackerFigures figures() const override { return ledger_.figures(); }
   StationStatus station(int station) const override { return ledger_.station(station); }
   TrackerCounters counters() const override;
 

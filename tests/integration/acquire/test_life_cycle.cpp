@@ -22,7 +22,7 @@ CommandAnswer ask(const SegmentReader& reader, CommandKind kind, double number =
 }
 
 TEST(LifeCycle, EndsInGoodOrderOnEachSignalAndLeavesNothingBehind) {
-  for (int signal : {SIGTERM, SIGINT}) {
+  for (int signal : {SIGTERM, SIGINT, SIGHUP}) {
     DaemonUnderTest daemon({"--scan"});
     ASSERT_TRUE(daemon.attach()) << daemon.process().standard_error();
     EXPECT_FALSE(leftovers(daemon.segment()).empty());
@@ -36,8 +36,10 @@ TEST(LifeCycle, EndsInGoodOrderOnEachSignalAndLeavesNothingBehind) {
 }
 
 TEST(LifeCycle, ASecondDaemonIsRefusedWithThePidOfTheFirst) {
-  DaemonUnderTest first({});
-  ASSERT_TRUE(first.attach()) << first.process().standard_error();
+  DaemonUnderTest first({"--scan", "--set", "twin.scenario=sweeps"});
+  auto reader = first.attach();
+  ASSERT_TRUE(reader) << first.process().standard_error();
+  ASSERT_TRUE(eventually([&] { return counter(*reader, Counter::lines_published) > 0; }));
   DaemonUnderTest second({}, first.segment());
   const auto end = second.process().wait(10s);
   ASSERT_TRUE(end);
@@ -46,6 +48,11 @@ TEST(LifeCycle, ASecondDaemonIsRefusedWithThePidOfTheFirst) {
   EXPECT_NE(said.find("already running"), std::string::npos) << said;
   EXPECT_NE(said.find("pid " + std::to_string(first.process().pid())), std::string::npos) << said;
   EXPECT_TRUE(first.process().running());
+  // What the first one has scanned is untouched, and it goes on.
+  const std::uint64_t lines = counter(*reader, Counter::lines_published);
+  EXPECT_GT(lines, 0u);
+  EXPECT_TRUE(eventually([&] { return counter(*reader, Counter::lines_published) > lines; }));
+  EXPECT_GE(whole_scan(*reader).lines.size(), lines);
 }
 
 TEST(LifeCycle, AKilledDaemonIsNoticedAndReplaced) {
@@ -123,9 +130,9 @@ TEST(LifeCycle, WhatCannotBeDoneIsRefusedWithAReason) {
 }
 
 TEST(LifeCycle, AFullSegmentIsAStateAndPosesGoOn) {
-  // One minute of capacity is 1800 lines; the twin at full speed fills it.
+  // A tenth of a minute is 180 lines; the twin at full speed fills it.
   DaemonUnderTest daemon(
-      {"--set", "twin.scenario=sweeps", "--set", "run.capacity_minutes=1", "--scan", "--fast"});
+      {"--set", "twin.scenario=sweeps", "--set", "run.capacity_minutes=0.1", "--scan", "--fast"});
   auto reader = daemon.attach();
   ASSERT_TRUE(reader) << daemon.process().standard_error();
   ASSERT_TRUE(eventually([&] { return reader->full(); }, 120s));

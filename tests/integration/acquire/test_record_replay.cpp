@@ -19,8 +19,8 @@ std::vector<SurfacePoint> points_of(DaemonUnderTest& daemon, std::uint64_t pictu
   DaemonStatus status;
   EXPECT_TRUE(eventually(
       [&] {
-        return counter(*reader, Counter::frames_received) >= pictures && reader->status(status) == ReadOutcome::ok &&
-               status.state == DaemonState::idle;
+        return counter(*reader, Counter::frames_received) >= pictures &&
+               reader->status(status) == ReadOutcome::ok && status.state == DaemonState::idle;
       },
       60s));
   const LineBatch scan = whole_scan(*reader);

@@ -111,7 +111,7 @@ TEST_F(LibertyUsb, AKernelDriverStepsAsideAndComesBack) {
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_EQ(usb.kernel_driver(), "");
     EXPECT_TRUE(usb.claimed());
-    EXPECT_EQ(usb.queued_in(), 8u) << "several transfers wait for data";
+    EXPECT_EQ(usb.queued_in(), 64u) << "many transfers wait for data: a busy host loses nothing for 0.26 s";
   }
   EXPECT_EQ(usb.kernel_driver(), "usbserial");
   EXPECT_FALSE(usb.claimed());

@@ -45,6 +45,34 @@ TEST(CommandLine, OptionsAddUpInTheOrderTheyAreGiven) {
   EXPECT_EQ(line->task, CommandLine::Task::run);
 }
 
+TEST(CommandLine, StationsCountFromOneAsOnTheUnit) {
+  const auto line = parsed({"--set", "tracker.endoscope_station=3", "--set", "tracker.object_station=0",
+                            "--set", "tracker.harvester_station=8", "--set", "liberty.stations=[3, 8]"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->options.tracker.roles.endoscope, 2);
+  EXPECT_EQ(line->options.tracker.roles.object, -1);
+  EXPECT_EQ(line->options.tracker.roles.harvester, 7);
+  EXPECT_EQ(line->options.tracker.liberty.stations, 0b1000'0100);
+  EXPECT_EQ(parsed({"--set", "tracker.endoscope_station=0"}).error().exit, ExitCode::configuration);
+  EXPECT_EQ(parsed({"--set", "liberty.stations=[1.5]"}).error().exit, ExitCode::configuration);
+}
+
+TEST(CommandLine, EverySettingOfTheUnitHasItsKey) {
+  const auto line = parsed({"--set", "liberty.hemisphere=[0, 0, -1]", "--set",
+                            "liberty.position_filter=[0.2, 0.2, 0.8, 0.95]", "--set", "liberty.format=ascii",
+                            "--set", "liberty.fifo=false", "--set", "liberty.ask_stylus=false"});
+  ASSERT_TRUE(line) << line.error().message;
+  const LibertyOptions& liberty = line->options.tracker.liberty;
+  EXPECT_EQ(liberty.hemisphere, Eigen::Vector3d(0, 0, -1));
+  ASSERT_TRUE(liberty.position_filter);
+  EXPECT_DOUBLE_EQ(liberty.position_filter->factor, 0.95);
+  EXPECT_FALSE(liberty.attitude_filter);
+  EXPECT_EQ(liberty.format, LibertyFormat::ascii);
+  EXPECT_FALSE(liberty.fifo);
+  EXPECT_FALSE(liberty.ask_stylus);
+  EXPECT_EQ(parsed({"--set", "liberty.attitude_filter=[0.2]"}).error().exit, ExitCode::configuration);
+}
+
 TEST(CommandLine, HelpAndVersionStopThere) {
   const auto help = parsed({"--help"});
   ASSERT_TRUE(help);

@@ -20,8 +20,7 @@ class ScanControlTest : public ::testing::Test {
 
   void sweep(int lines) {
     scan_.start(1);
-    for (int i = 0; i < lines; ++i)
-      EXPECT_EQ(offer_line(), PublishOutcome::stored);
+    for (int i = 0; i < lines; ++i) EXPECT_EQ(offer_line(), PublishOutcome::stored);
     scan_.stop();
   }
 
