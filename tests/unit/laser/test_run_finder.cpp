@@ -40,7 +40,7 @@ TEST(RunFinder, FindsWhatALoopOverEachProfileFinds) {
   cv::Mat picture(90, 101, CV_8UC3, cv::Scalar::all(0));
   std::mt19937 generator(7);
   std::uniform_int_distribution<int> x(0, 100), y(0, 89), length(1, 9);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const int a = x(generator), b = y(generator), n = length(generator);
     for (int k = 0; k < n; ++k)
       picture.at<cv::Vec3b>(std::min(89, b + k), a)[1] = picture.at<cv::Vec3b>(b, std::min(100, a + k))[1] =
