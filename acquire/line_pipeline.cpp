@@ -39,7 +39,9 @@ Counter counter_of(NoSurface reason) {
       return Counter::points_outside_picture;
     case NoSurface::behind:
       return Counter::points_no_intersection;
-    case NoSurface::out_of_range:
+    case NoSurface::too_near:
+      return Counter::points_too_near;
+    case NoSurface::too_far:
       return Counter::points_too_far;
     case NoSurface::not_finite:
       break;

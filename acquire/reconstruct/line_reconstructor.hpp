@@ -20,8 +20,8 @@
 namespace linescope {
 
 struct LineReconstructorOptions {
-  double min_depth_mm = 0.1;  ///< along the optical axis; nearer points are counted as out_of_range; 0 .. max
-  double max_depth_mm = 1000;  ///< farther points are counted as out_of_range; at most 100000
+  double min_depth_mm = 0.1;   ///< along the optical axis; nearer points are counted as too_near; 0 .. max
+  double max_depth_mm = 1000;  ///< farther points are counted as too_far; at most 100000
   double line_noise_px = 0.1;  ///< what shakes the line's middle besides camera noise (speckle, texture):
                                ///< added in squares to what the signal-to-noise ratio gives; 0 .. 100
 };
@@ -32,9 +32,10 @@ enum class NoSurface : std::uint8_t {
   not_finite,    ///< the sample itself is not a number
   outside_lens,  ///< the pixel lies outside the picture or where the lens distortion cannot be inverted
   behind,        ///< the ray runs along the laser surface or meets it behind the camera
-  out_of_range,  ///< nearer than min_depth_mm or farther than max_depth_mm
+  too_near,      ///< nearer than min_depth_mm
+  too_far,       ///< farther than max_depth_mm
 };
-inline constexpr std::size_t kNoSurfaceReasons = 4;
+inline constexpr std::size_t kNoSurfaceReasons = 5;
 std::string_view name(NoSurface reason);
 
 using NoSurfaceCounts = std::array<std::uint32_t, kNoSurfaceReasons>;
@@ -60,7 +61,7 @@ class LineReconstructor {
 
   /// Fills `out` (its capacity is kept, so nothing is allocated once it has seen the longest line). A point's
   /// standard deviation is along the viewing ray: noise of the line's middle (Cramer-Rao bound at the
-  /// sample's width and signal-to-noise ratio, and line_noise_px) times the change of depth per px. Fails
+  /// sample's width and signal-to-noise ratio, and line_noise_px) times how far a px moves it there. Fails
   /// with `mismatch` when the line comes from a picture of another size, and with `invalid` when the pose is
   /// not finite; `out` is then empty.
   Result<void> reconstruct(const ExtractedLine& line, const Rigid<World, Endoscope>& world_from_endoscope,
