@@ -1,5 +1,5 @@
 // What the camera's thread publishes: scans and their lines.
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include "ipc/segment_writer.hpp"
@@ -142,6 +142,7 @@ PublishOutcome SegmentWriter::publish_line(const ScanLineInfo& info, std::span<c
   p.announcer.ring_ahead(Topic::lines);
   p.store_line(info, points);
   p.announcer.announce(Topic::lines);
+  p.fetch_next_line();
   count(Counter::lines_published);
   count(Counter::points_published, points.size());
   return PublishOutcome::stored;
@@ -162,6 +163,15 @@ void SegmentWriter::Parts::store_line(const ScanLineInfo& info, std::span<const 
   shared::store(header().next_serial, next_serial);
   shared::store(header().points_used, points_used);
   shared::store(header().published, published_word(generation, ++lines));
+}
+
+/// The next line will lie where nothing was touched for a whole scan: its start is asked for now, when nobody
+/// waits for it. All of it would cost the writer more than it saves the reader.
+void SegmentWriter::Parts::fetch_next_line() const {
+  constexpr std::size_t kAhead = 4096;
+  const std::byte* at = segment.data() + plan[LS_SECTION_POINTS].offset + points_used * sizeof(ls_point);
+  const std::size_t left = (options.point_capacity - points_used) * sizeof(ls_point);
+  for (std::size_t i = 0; i < std::min(left, kAhead); i += LS_CACHE_LINE) __builtin_prefetch(at + i, 1);
 }
 
 bool SegmentWriter::scanning() const {

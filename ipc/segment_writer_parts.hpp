@@ -30,6 +30,7 @@ struct SegmentWriter::Parts {
   void begin_generation(std::uint32_t kept, std::uint64_t points, std::uint32_t cause);
   void set_full(std::uint32_t what);
   void store_line(const ScanLineInfo& info, std::span<const SurfacePoint> points);
+  void fetch_next_line() const;
   void note_frame(const PictureInfo& info);
 
   SegmentOptions options;

@@ -35,6 +35,7 @@ void Watcher::run() {
 void Watcher::lose() {
   if (alive_ == 0) return;
   noticed_ = monotonic_now();
+  lines_of_this_writer_ = 0;
   alive_ = 0;
 }
 
@@ -65,6 +66,7 @@ void Watcher::follow(SegmentReader& reader) {
 
 void Watcher::check(const LineBatch& batch, const LineCursor& cursor) {
   account_.damaged += batch.damaged;
+  lines_of_this_writer_ += batch.lines.size();
   for (const Line& line : batch.lines) {
     (whole_(line, batch.points_of(line)) ? account_.lines : account_.torn) += 1;
     account_.repeated += line.serial < next_serial_;

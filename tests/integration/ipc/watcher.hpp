@@ -34,6 +34,8 @@ class Watcher {
 
   /// Session it is attached to with a living writer; 0: none.
   std::uint64_t alive() const { return alive_; }
+  /// Lines it got of the present writer.
+  std::uint64_t lines_of_this_writer() const { return lines_of_this_writer_; }
   /// When it last looked and found its writer alive. However busy the machine is: no look later than 0.2 s
   /// after a death may.
   Nanoseconds last_alive() const { return last_alive_; }
@@ -53,6 +55,7 @@ class Watcher {
   WatcherAccount account_;
   std::uint64_t next_serial_ = 0;
   std::atomic<std::uint64_t> alive_{0};
+  std::atomic<std::uint64_t> lines_of_this_writer_{0};
   std::atomic<Nanoseconds> last_alive_{0};
   std::atomic<Nanoseconds> noticed_{0};
   std::atomic<bool> end_{false};
