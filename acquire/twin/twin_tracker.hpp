@@ -22,6 +22,7 @@ class TwinTracker : public TrackerSource {
   Result<Pull> next(PoseSample& out) override;
   bool live() const override { return false; }
   std::string description() const override;
+  double nominal_hz() const override { return experiment_->options().tracker.rate_hz; }
 
   TrackerStatus status() const override;
   StationStatus station(int station) const override;
