@@ -34,7 +34,7 @@ struct LineExtractorOptions {
       12;                ///< grey levels above both sides, more in noisy pictures; 0 switches it off; 0..254
   int ridge_reach = 24;  ///< px to the sides: at least twice the line's width; 2..256
   double colour_ratio =
-      1.7;            ///< what a ridge adds is this much more laser-coloured than its surroundings; 1..10
+      1.62;           ///< what a ridge adds is this much more laser-coloured than its surroundings; 1..10
   int merge_gap = 3;  ///< px; pieces of one profile closer than this are one candidate; 0..32
   int saturation_level = 245;  ///< grey levels from which a channel counts as saturated; 128..255
 
