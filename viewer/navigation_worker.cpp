@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "viewer/navigate/normal_estimator.hpp"
+#include "viewer/navigate/steady_harvester.hpp"
 
 namespace linescope {
 namespace {
@@ -40,6 +41,7 @@ std::string name(NormalChoice choice) {
 /// What belongs to the thread alone.
 struct NavigationWorker::Work {
   NormalEstimator estimator;
+  SteadyHarvester steady;
 
   void take(const LineNews& news) {
     if (news.forget) estimator.clear();
@@ -54,18 +56,19 @@ struct NavigationWorker::Work {
     }
   }
 
-  std::shared_ptr<const NavigationView> answer(const LiveView& live, NormalChoice choice) const {
+  std::shared_ptr<const NavigationView> answer(const LiveView& live, NormalChoice choice) {
     auto view = std::make_shared<NavigationView>();
     view->method = name(choice);
     view->harvester_time = live.tool(ToolRole::harvester).acquired;
     view->object_time =
         live.held_in == HeldIn::object ? live.tool(ToolRole::object).acquired : view->harvester_time;
     const auto harvester = held_harvester(live);
-    if (!harvester) return view;
+    if (!harvester) return steady.reset(), view;
+    const auto& hold = steady.follow(harvester->tip, harvester->axis, view->harvester_time);
     view->asked = true;
-    view->tip = harvester->tip;
-    view->axis = harvester->axis;
-    const NormalQuery query{.tip = harvester->tip, .axis = harvester->axis, .now = view->harvester_time};
+    view->tip = hold.tip;
+    view->axis = hold.axis;
+    const NormalQuery query{.tip = hold.tip, .axis = hold.axis, .now = view->harvester_time};
     copy(estimator.estimate(query, method_of(choice)), *view);
     return view;
   }

@@ -173,20 +173,9 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
     within_freedom -= 1;
   }
   batch.flush();
-  forget_slopes_within();
-}
-
-/// Within a line, less its offset and its slope, x and y vary by noise only: no information about the
-/// surface's slope. Taken as two free slopes of the lines' own and eliminated.
-void LineGroups::forget_slopes_within() {
-  RowSums full = within.selfadjointView<Eigen::Lower>();
-  Eigen::Matrix2d slopes = full.block<2, 2>(1, 1);
-  slopes.diagonal().array() += 1e-9 * full.trace() + 1e-300;
-  const Eigen::Matrix<double, 2, 12> across = full.middleRows<2>(1);
-  full -= across.transpose() * slopes.inverse() * across;
-  full.topRows<3>().setZero();
-  full.leftCols<3>().setZero();
-  within = full;
+  // Nothing but rounding: a straight line less its offset and its slope has no place and no slope of its own.
+  within.topRows<3>().setZero();
+  within.leftCols<3>().setZero();
 }
 
 void LineGroups::scale_to(const Eigen::Matrix<double, 10, 1>& surface) {

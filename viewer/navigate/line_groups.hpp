@@ -38,9 +38,6 @@ struct LineGroups {
   double within_freedom = 0;         ///< segments less what offsets and tilts took
   double segment_factor =
       1;  ///< variance of segments within lines over what their points' deviations promise
-
- private:
-  void forget_slopes_within();
 };
 
 }  // namespace linescope

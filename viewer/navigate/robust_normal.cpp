@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "viewer/navigate/angle_difference.hpp"
@@ -81,6 +82,7 @@ class Estimation {
       shrink(patch_, wanted);
       quadric_ = fit_robust_quadric(patch_, options_.robust);
     }
+    bend_ << 2 * quadric_.b[3], quadric_.b[4], quadric_.b[4], 2 * quadric_.b[5];
     const Support support = judge_support(patch_, query_.now, options_.support);
     result_.counts = support.counts;
     result_.age = support.counts.points > 0 ? query_.now - support.newest : 0;
@@ -114,12 +116,29 @@ class Estimation {
     judge_angle(normal, axis);
   }
 
+  /// Where a part of the patch was seen to be something else, some of that was not seen: growth of the
+  /// variance, measured beside flaps with ragged edges.
+  double doubt() const {
+    const double out = result_.counts.points_rejected, used = result_.counts.points;
+    return 1 + 2 * out / std::max(1.0, used + out);
+  }
+
+  /// The scan alone cannot be less certain than with the tracker: one cone is mostly enough.
+  bool certain_enough(const Eigen::Matrix2d& of_scan) const {
+    const double whole = result_.normal_uncertainty;
+    if (whole <= std::min(options_.support.largest_uncertainty, options_.support.largest_cone)) return true;
+    return whole <= options_.support.largest_cone &&
+           cone_95({of_scan, solution_.degrees_of_freedom}) <= options_.support.largest_uncertainty;
+  }
+
   void judge_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& axis) {
-    TiltError error{solution_.slope_covariance, solution_.degrees_of_freedom};
-    error.covariance.diagonal().array() += options_.unseen_tilt * options_.unseen_tilt;
+    const Unseen& unseen = options_.unseen;
+    const Eigen::Matrix2d of_scan = doubt() * solution_.slope_covariance;
+    TiltError error{of_scan + unseen.tip * unseen.tip * bend_ * bend_.transpose(),
+                    solution_.degrees_of_freedom};
+    error.covariance.diagonal().array() += unseen.surface_tilt * unseen.surface_tilt;
     result_.normal_uncertainty = cone_95(error);
-    const double moved = options_.tip_deviation * quadric_.curvature();
-    error.covariance.diagonal().array() += options_.axis_tilt * options_.axis_tilt + moved * moved;
+    error.covariance.diagonal().array() += unseen.axis_tilt * unseen.axis_tilt;
     result_.angle = angle_difference(normal, axis);
     const Eigen::Vector2d across = (axis - axis.dot(normal) * normal).head<2>();
     const Eigen::Vector2d tilt =
@@ -127,8 +146,7 @@ class Estimation {
     const AngleInterval interval = angle_interval_95(tilt, error);
     result_.angle_low = interval.low;
     result_.angle_high = interval.high;
-    if (!(result_.normal_uncertainty <= options_.support.largest_uncertainty))
-      result_.reason = NormalReason::too_uncertain;
+    if (!certain_enough(of_scan)) result_.reason = NormalReason::too_uncertain;
   }
 
   const LiveIndex& index_;
@@ -138,10 +156,26 @@ class Estimation {
   NormalEstimate result_;
   Patch patch_;
   Quadric quadric_;
+  Eigen::Matrix2d bend_ = Eigen::Matrix2d::Zero();  ///< change of the slope per move along the surface, 1/mm
   PatchSolution solution_;
 };
 
 }  // namespace
+
+Unseen Unseen::of_field(double position_mm, double rotation_rad) {
+  constexpr double kPerAxis = 1 / std::numbers::sqrt3, kTurn = 2 * std::numbers::pi;
+  constexpr double kEndoscopeLever = 150, kHarvesterLever = 180, kWavelength = 250;
+  const double position = position_mm * kPerAxis, rotation = rotation_rad * kPerAxis;
+  // A random wave's slope along one direction of three.
+  const double bent = kTurn / kWavelength * kPerAxis * std::hypot(position, kEndoscopeLever * rotation);
+  const Unseen clear;
+  Unseen unseen;
+  unseen.surface_tilt = std::hypot(bent, rotation);
+  unseen.axis_tilt = std::hypot(clear.axis_tilt, rotation);
+  unseen.tip = std::sqrt(clear.tip * clear.tip + 2 * position * position +
+                         std::pow(kEndoscopeLever * rotation, 2) + std::pow(kHarvesterLever * rotation, 2));
+  return unseen;
+}
 
 Result<void> validate(const RobustNormalOptions& o) {
   if (!(o.smallest_radius >= 0.5 && o.radius >= o.smallest_radius && o.radius <= 20))
@@ -152,7 +186,7 @@ Result<void> validate(const RobustNormalOptions& o) {
     return fail(ErrorCode::invalid, "normal estimate: height of the patch must be positive");
   if (!(o.curvature_reach > 0))
     return fail(ErrorCode::invalid, "normal estimate: curvature reach must be positive");
-  if (!(o.unseen_tilt >= 0 && o.axis_tilt >= 0 && o.tip_deviation >= 0))
+  if (!(o.unseen.surface_tilt >= 0 && o.unseen.axis_tilt >= 0 && o.unseen.tip >= 0))
     return fail(ErrorCode::invalid,
                 "normal estimate: standard deviations of tilts and tip must not be negative");
   if (!(o.robust.cut > 0) || !(o.robust.smallest_scale > 0) || !(o.robust.usual_curvature > 0))
@@ -162,7 +196,7 @@ Result<void> validate(const RobustNormalOptions& o) {
   if (o.support.fewest_points < 6 || o.support.fewest_lines < 3)
     return fail(ErrorCode::invalid,
                 "normal estimate: at least 6 points and 3 lines are needed for a curved surface");
-  if (!(o.support.largest_uncertainty > 0) || o.support.oldest <= 0)
+  if (!(o.support.largest_uncertainty > 0 && o.support.largest_cone > 0) || o.support.oldest <= 0)
     return fail(ErrorCode::invalid, "normal estimate: limits of uncertainty and age must be positive");
   return {};
 }

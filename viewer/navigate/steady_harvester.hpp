@@ -17,7 +17,7 @@
 namespace linescope {
 
 struct SteadyHarvesterOptions {
-  double slowest_hz = 1.0;                         ///< cut-off frequency at rest
+  double slowest_hz = 0.8;                         ///< cut-off frequency at rest
   double tip_hz_per_speed = 0.5;                   ///< added per mm/s of the tip
   double axis_hz_per_speed = 40.0;                 ///< added per rad/s of the axis
   double speed_hz = 1.0;                           ///< cut-off frequency of the speeds themselves

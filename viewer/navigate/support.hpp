@@ -14,7 +14,9 @@ struct SupportOptions {
   double widest_empty_angle = 2.0;     ///< largest angle about the foot without surface in that ring, rad
   double largest_hole = 1.0;           ///< from the foot to the nearest used piece of surface, mm
   Nanoseconds oldest = 600 * kSecond;  ///< age of the newest line
-  double largest_uncertainty = 0.0873;  ///< half angle of the 95 % cone, rad (5 degrees)
+  double largest_uncertainty =
+      0.0873;                   ///< half angle of the 95 % cone by the scan's own noise, rad (5 degrees)
+  double largest_cone = 0.175;  ///< half angle of the whole 95 % cone, rad (10 degrees)
 };
 
 /// Counts, age and the verdict on the patch's used segments (weight > 0). `ring` and `clear` shrink with a

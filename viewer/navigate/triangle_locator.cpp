@@ -85,36 +85,42 @@ void TriangleLocator::enter(const Triangle& t, std::uint64_t owner, std::vector<
     free_.pop_back();
   }
   Stored& stored = triangles_[static_cast<std::size_t>(place)];
-  stored = {t.a, t.b - t.a, t.c - t.a, radius, centre, owner};
-  visit_cells_of(stored, [&](std::vector<std::int32_t>& cell) { cell.push_back(place); });
+  stored = {t.a, t.b - t.a, t.c - t.a, owner};
+  visit_cells_of(stored, [&](std::vector<Entry>& cell) { cell.push_back({centre, radius, place}); });
   mine.push_back(place);
   ++size_;
 }
 
 void TriangleLocator::remove(std::int32_t triangle) {
-  visit_cells_of(triangles_[static_cast<std::size_t>(triangle)],
-                 [&](std::vector<std::int32_t>& cell) { std::erase(cell, triangle); });
+  visit_cells_of(triangles_[static_cast<std::size_t>(triangle)], [&](std::vector<Entry>& cell) {
+    std::erase_if(cell, [&](const Entry& entry) { return entry.triangle == triangle; });
+  });
   free_.push_back(triangle);
   --size_;
 }
 
+float TriangleLocator::distance_to_cell(const CellIndex& c, const Eigen::Vector3f& place) const {
+  const auto half = static_cast<float>(grid_.cell_size() / 2);
+  const Eigen::Vector3f from_centre = (place - grid_.centre_of(c).cast<float>()).cwiseAbs();
+  return (from_centre.array() - half).max(0.0f).matrix().norm();
+}
+
 void TriangleLocator::look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const {
-  for (const std::int32_t index : cells_[static_cast<std::size_t>(cell)]) {
-    if (index == best.triangle) continue;
-    const Stored& t = triangles_[static_cast<std::size_t>(index)];
+  for (const Entry& entry : cells_[static_cast<std::size_t>(cell)]) {
     // A triangle whose ball is farther than the best so far cannot win.
-    const float beyond = std::sqrt(best.squared) + t.radius;
-    if ((t.centre - place).squaredNorm() >= beyond * beyond) continue;
+    const float beyond = best.distance + entry.radius;
+    if ((entry.centre - place).squaredNorm() >= beyond * beyond || entry.triangle == best.triangle) continue;
+    const Stored& t = triangles_[static_cast<std::size_t>(entry.triangle)];
     const Eigen::Vector3f point = nearest_on(t.a, t.ab, t.ac, place);
     const float squared = (point - place).squaredNorm();
-    if (squared < best.squared) best = {squared, index, point};
+    if (squared < best.distance * best.distance) best = {std::sqrt(squared), entry.triangle, point};
   }
 }
 
 std::optional<TriangleLocator::Nearest> TriangleLocator::nearest(const Eigen::Vector3f& place,
                                                                  float reach) const {
   if (size_ == 0 || !place.allFinite() || !grid_.holds(place.cast<double>())) return std::nullopt;
-  Best best{reach * reach};
+  Best best{reach};
   const CellIndex home = grid_.cell_of(place.cast<double>());
   // Everything nearer than the wall of the box looked at has been seen.
   const Eigen::Vector3d from_centre = (place.cast<double>() - grid_.centre_of(home)).cwiseAbs();
@@ -123,15 +129,15 @@ std::optional<TriangleLocator::Nearest> TriangleLocator::nearest(const Eigen::Ve
   for (int ring = 0;; ring = ring == 0 ? 1 : 2 * ring) {
     const CellIndex r = CellIndex::Constant(ring);
     grid_.visit_box(home - r, home + r, [&](std::int32_t cell, const CellIndex& c) {
-      if ((c - home).cwiseAbs().maxCoeff() > seen) look_into(cell, place, best);
+      if ((c - home).cwiseAbs().maxCoeff() <= seen || distance_to_cell(c, place) >= best.distance) return;
+      look_into(cell, place, best);
     });
     seen = ring;
     const double certain = to_wall + ring * grid_.cell_size();
-    if (static_cast<double>(best.squared) <= certain * certain || certain > static_cast<double>(reach)) break;
+    if (static_cast<double>(best.distance) <= certain || certain > static_cast<double>(reach)) break;
   }
   if (best.triangle < 0) return std::nullopt;
-  return Nearest{triangles_[static_cast<std::size_t>(best.triangle)].owner, best.point,
-                 std::sqrt(best.squared)};
+  return Nearest{triangles_[static_cast<std::size_t>(best.triangle)].owner, best.point, best.distance};
 }
 
 }  // namespace linescope

@@ -2,8 +2,9 @@
 // mesh changes.
 //
 // Triangles are entered in every cell of a sparse grid that their box touches; a search looks at the cells
-// around the place, ring by ring, until no nearer triangle can lie farther out. Exact: never farther than the
-// brute-force answer. One thread may change it while nobody searches; any number may search.
+// around the place, ring by ring, leaving out those that are farther than the best so far, until no nearer
+// triangle can lie farther out. Exact: never farther than the brute-force answer. One thread may change it
+// while nobody searches; any number may search.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,12 +50,16 @@ class TriangleLocator {
  private:
   struct Stored {
     Eigen::Vector3f a, ab, ac;
-    float radius = 0;  ///< of the ball about the centre
-    Eigen::Vector3f centre;
     std::uint64_t owner = 0;
   };
+  /// A triangle's ball, beside its cell, so that most triangles need not be touched.
+  struct Entry {
+    Eigen::Vector3f centre;
+    float radius;
+    std::int32_t triangle;
+  };
   struct Best {
-    float squared;
+    float distance;
     std::int32_t triangle = -1;
     Eigen::Vector3f point = Eigen::Vector3f::Zero();
   };
@@ -63,10 +68,11 @@ class TriangleLocator {
   void remove(std::int32_t triangle);
   template <class Visit>
   void visit_cells_of(const Stored& triangle, Visit&& visit);
+  float distance_to_cell(const CellIndex& c, const Eigen::Vector3f& place) const;
   void look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const;
 
   CellGrid grid_;
-  std::vector<std::vector<std::int32_t>> cells_;
+  std::vector<std::vector<Entry>> cells_;
   std::vector<Stored> triangles_;
   std::vector<std::int32_t> free_;
   std::unordered_map<std::uint64_t, std::vector<std::int32_t>> owners_;

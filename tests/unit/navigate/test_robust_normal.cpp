@@ -125,6 +125,51 @@ TEST_F(Scanned, RefusesWhatIsTooUncertainButKeepsTheNumbersForDiagnostics) {
   EXPECT_GT(e.normal_uncertainty, radians_from_degrees(5));
 }
 
+// A tip that may be 3 mm off on a knee of 25 mm radius: the scan is good, the answer is not.
+TEST(RobustNormal, RefusesWhatTheTrackerMakesTooUncertain) {
+  Scanner scanner(5);
+  Scan lines;
+  scanner.sweep(condyle(), {}, {.line = 0.03}, 0, lines);
+  for (const auto& [tip, reason] : {std::pair{0.1, NormalReason::none}, {3.0, NormalReason::too_uncertain}}) {
+    NormalEstimatorOptions options;
+    options.robust.unseen = {.surface_tilt = 0, .axis_tilt = 0, .tip = tip};
+    NormalEstimator estimator(options);
+    add_all(estimator, lines);
+    EXPECT_EQ(estimator.estimate(spot_at(condyle(), 0, 0, 0.05, 0, 0.5).query).reason, reason) << tip;
+  }
+}
+
+// Stated errors of the tracker widen the cone as the tilt they make: tip error times curvature.
+TEST(RobustNormal, ConeGrowsWithWhatIsStatedOfTheTracker) {
+  Scanner scanner(5);
+  Scan lines;
+  scanner.sweep(cylinder(), {}, {.line = 0.01}, 0, lines);
+  const auto cone = [&](const Unseen& unseen) {
+    NormalEstimatorOptions options;
+    options.robust.unseen = unseen;
+    NormalEstimator estimator(options);
+    add_all(estimator, lines);
+    return estimator.estimate(spot_at(cylinder(), 0, 0, 0.05, 0, 0.5).query).normal_uncertainty;
+  };
+  const double once = cone({.surface_tilt = 0, .axis_tilt = 0, .tip = 1});
+  const double twice = cone({.surface_tilt = 0, .axis_tilt = 0, .tip = 2});
+  EXPECT_NEAR(twice / once, 2, 0.05);
+  // 1.96 deviations in the one direction that bends; up to 12 % more by Student's factor for fifty lines, the
+  // scan's own drift and the cone's sixteen directions.
+  EXPECT_GE(once, 1.96 / 25);
+  EXPECT_LE(once, 1.12 * 1.96 / 25);
+  // 2.45 where both directions tilt alike.
+  EXPECT_NEAR(cone({.surface_tilt = 0.03, .axis_tilt = 0, .tip = 0}), 2.45 * 0.03, 0.1 * 2.45 * 0.03);
+}
+
+TEST(Unseen, AFieldWithoutDistortionAddsNothing) {
+  const Unseen clear, made = Unseen::of_field(0, 0);
+  EXPECT_EQ(made.surface_tilt, clear.surface_tilt);
+  EXPECT_EQ(made.axis_tilt, clear.axis_tilt);
+  EXPECT_EQ(made.tip, clear.tip);
+  EXPECT_GT(Unseen::of_field(0.76, 0.0026).tip, 0.5);
+}
+
 TEST_F(Scanned, TellsAMissedSurfaceFromNone) {
   scan(plane(), {.line = 0.03});
   EXPECT_EQ(estimator_.estimate({{0, 0, 2}, {1, 0, 0}, 0}).reason, NormalReason::axis_misses_surface);
@@ -207,7 +252,7 @@ TEST(RobustNormalOptions, FaultsAreNamed) {
   EXPECT_TRUE(refused([](auto& o) { o.robust.radius = 0.1; }));
   EXPECT_TRUE(refused([](auto& o) { o.robust.height = -1; }));
   EXPECT_TRUE(refused([](auto& o) { o.robust.curvature_reach = 0; }));
-  EXPECT_TRUE(refused([](auto& o) { o.robust.unseen_tilt = NAN; }));
+  EXPECT_TRUE(refused([](auto& o) { o.robust.unseen.surface_tilt = NAN; }));
   EXPECT_TRUE(refused([](auto& o) { o.robust.robust.cut = 0; }));
   EXPECT_TRUE(refused([](auto& o) { o.robust.foot.reach_ahead = -1; }));
   EXPECT_TRUE(refused([](auto& o) { o.robust.support.fewest_lines = 1; }));
