@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
+
+#include "acquire/twin/triangle_file.hpp"
+#include "acquire/twin/triangle_phantom.hpp"
 
 namespace linescope::twin {
 namespace {
@@ -14,7 +18,7 @@ Result<PhantomOptions> unknown(std::string_view name) {
       ErrorCode::usage,
       fmt::format(
           "no phantom is called '{}': use condyle, plane, cylinder-49, cylinder-49.1, cylinder-50 (any "
-          "diameter in mm) or mini-knee",
+          "diameter in mm), mini-knee, or a mesh file FILE.off (linescope-mesh makes one)",
           name));
 }
 
@@ -29,12 +33,24 @@ Result<PhantomOptions> cylinder(std::string_view name) {
   return options;
 }
 
+Result<PhantomOptions> mesh_from_file(std::string_view file) {
+  auto mesh = read_triangles(file);
+  if (!mesh) return tl::unexpected(mesh.error());
+  if (auto valid = validate(*mesh); !valid)
+    return fail(valid.error().code, fmt::format("{}: {}", file, valid.error().message));
+  PhantomOptions options;
+  options.kind = PhantomKind::mesh;
+  options.mesh = std::move(*mesh);
+  return options;
+}
+
 }  // namespace
 
 Result<PhantomOptions> phantom_from_name(std::string_view name) {
   PhantomOptions options;
   if (name == "condyle") return options;
   if (name.starts_with(kCylinderPrefix)) return cylinder(name);
+  if (name.ends_with(kTriangleFileSuffix)) return mesh_from_file(name);
   if (name == "plane") {
     options.kind = PhantomKind::plane;
     return options;

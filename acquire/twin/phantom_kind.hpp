@@ -11,7 +11,7 @@
 
 namespace linescope::twin {
 
-/// Plain triangles, mm, any frame. Whoever reads mesh files fills this; the twin reads no files.
+/// Plain triangles, mm, any frame.
 struct TriangleSoup {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
@@ -29,8 +29,9 @@ struct PhantomOptions {
   TriangleSoup mesh;             ///< only for `mesh`: its highest point along +z becomes the site
 };
 
-/// "condyle", "plane", "cylinder-49", "cylinder-49.1", "cylinder-50" (any diameter), "mini-knee". A name that
-/// is none of these fails with the list of those that are. Meshes have no name: set kind and mesh.
+/// "condyle", "plane", "cylinder-49", "cylinder-49.1", "cylinder-50" (any diameter), "mini-knee", or the path
+/// of a mesh file (ends in .off, triangle_file.hpp). A name that is none of these fails with the list of
+/// those that are.
 Result<PhantomOptions> phantom_from_name(std::string_view name);
 
 /// The name phantom_from_name understands; "mesh" for a mesh.

@@ -78,13 +78,13 @@ double TrackerNoiseModel::true_seconds(std::uint64_t cycle) const {
   return static_cast<double>(cycle) / (options_.rate_hz * (1 + options_.clock_drift_ppm * 1e-6));
 }
 
-Nanoseconds TrackerNoiseModel::stamp_error(std::uint64_t cycle) const {
+Nanoseconds TrackerNoiseModel::lateness(std::uint64_t cycle) const {
   if (!(options_.time_jitter_us > 0)) return options_.latency;
   Dice dice(seed_, Stream::tracker, ~cycle);
-  // Time stamps of one station must keep growing: the tails are cut at a third of the period.
+  // Cycles arrive in their order: the tail is cut at a third of the period.
   const double limit = 1e6 / options_.rate_hz / 3;
-  const double jitter_us = std::clamp(dice.normal() * options_.time_jitter_us, -limit, limit);
-  return options_.latency + static_cast<Nanoseconds>(std::llround(jitter_us * 1e3));
+  const double late_us = std::min(std::abs(dice.normal()) * options_.time_jitter_us, limit);
+  return options_.latency + static_cast<Nanoseconds>(std::llround(late_us * 1e3));
 }
 
 bool TrackerNoiseModel::dropped(int station, double seconds) const {

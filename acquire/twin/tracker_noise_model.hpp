@@ -36,8 +36,9 @@ class TrackerNoiseModel {
   /// Seconds after the beginning at which the cycle is truly taken: the device's own clock.
   double true_seconds(std::uint64_t cycle) const;
 
-  /// Error of the time stamp that the host gives to this cycle.
-  Nanoseconds stamp_error(std::uint64_t cycle) const;
+  /// How much later than it could a cycle arrives at the host: the constant latency, and what the bus and the
+  /// host add.
+  Nanoseconds lateness(std::uint64_t cycle) const;
 
   /// True while this station has a drop-out.
   bool dropped(int station, double seconds) const;

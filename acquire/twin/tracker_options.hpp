@@ -10,10 +10,10 @@
 namespace linescope::twin {
 
 struct TrackerNoise {
-  double rate_hz = 240.0;           ///< nominal
-  double clock_drift_ppm = 0.0;     ///< real units: 239.9986 .. 240.0047 Hz, that is -6 .. +20 ppm
-  double time_jitter_us = 0.0;      ///< white, on the time stamp (host side), standard deviation
-  Nanoseconds latency = 0;          ///< time stamp minus true instant, constant and unknown to the host
+  double rate_hz = 240.0;        ///< nominal
+  double clock_drift_ppm = 0.0;  ///< real units: 239.9986 .. 240.0047 Hz, that is -6 .. +20 ppm
+  double time_jitter_us = 0.0;  ///< by how much cycles arrive late at the host: half of a normal distribution
+  Nanoseconds latency = 0;      ///< time stamp minus true instant, constant and unknown to the host
   double position_sigma_mm = 0.0;   ///< white, per axis
   double rotation_sigma_rad = 0.0;  ///< white, per axis
   double field_position_mm =

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "acquire/twin/liberty_bytes.hpp"
+
 namespace linescope::twin {
 namespace {
 
@@ -23,13 +25,15 @@ Rigid<World, Sensor> true_pose(const TwinTruth& truth, int station, Nanoseconds 
 TwinTracker::TwinTracker(std::shared_ptr<const VirtualExperiment> experiment)
     : experiment_(std::move(experiment)),
       noise_(experiment_->options().seed, experiment_->options().tracker) {
+  liberty_.rate_hz = static_cast<int>(std::lround(experiment_->options().tracker.rate_hz));
   for (StationStatus& station : stations_) station.reason = "nothing arrived yet";
 }
 
 Result<void> TwinTracker::start() {
   const std::lock_guard lock(mutex_);
+  stream_.emplace(liberty_);
+  waiting_.clear();
   cycle_ = 0;
-  next_station_ = 0;
   started_ = true;
   ended_ = false;
   stations_ = {};
@@ -42,29 +46,46 @@ Result<void> TwinTracker::start() {
 
 Result<Pull> TwinTracker::next(PoseSample& out) {
   if (!started_) return fail(ErrorCode::usage, "the simulated tracker was not started");
-  const TwinOptions& options = experiment_->options();
-  const double seconds = noise_.true_seconds(cycle_);
-  const Nanoseconds time = options.start + std::llround(seconds * 1e9);
-  if (options.duration > 0 && time >= options.start + options.duration) {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    return Pull::end;
+  while (waiting_.empty()) {
+    if (over()) {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+      return Pull::end;
+    }
+    play_cycle();
   }
-  out = PoseSample{};
-  out.time = time + noise_.stamp_error(cycle_);
-  out.frame_count = static_cast<std::uint32_t>(cycle_);
-  out.station = static_cast<std::uint8_t>(next_station_);
-  if (noise_.dropped(next_station_, seconds)) {
-    out.state = ToolState::out_of_view;
-  } else {
-    out.state = ToolState::ok;
-    out.world_from_sensor =
-        noise_.reported(true_pose(experiment_->truth(), next_station_, time), next_station_, cycle_);
-  }
+  out = waiting_.front();
+  waiting_.pop_front();
   publish(out);
-  next_station_ = (next_station_ + 1) % kTwinStations;
-  if (next_station_ == 0) ++cycle_;
   return Pull::item;
+}
+
+bool TwinTracker::over() const {
+  const Nanoseconds duration = experiment_->options().duration;
+  return duration > 0 && std::llround(noise_.true_seconds(cycle_) * 1e9) >= duration;
+}
+
+void TwinTracker::play_cycle() {
+  const double seconds = noise_.true_seconds(cycle_);
+  const Nanoseconds time = experiment_->options().start + std::llround(seconds * 1e9);
+  bytes_.clear();
+  for (int station = 0; station < kTwinStations; ++station) append_station(station, seconds, time);
+  stream_->feed(bytes_, time + liberty_.device_latency + noise_.lateness(cycle_), *this);
+  ++cycle_;
+}
+
+void TwinTracker::append_station(int station, double seconds, Nanoseconds time) {
+  LibertyRecord record;
+  record.station = station;
+  record.frame_count = static_cast<std::uint32_t>(cycle_);
+  record.milliseconds = static_cast<std::uint32_t>(seconds * 1e3);
+  if (noise_.dropped(station, seconds)) {
+    record.error = kOutsideMappedArea;
+  } else {
+    record.world_from_sensor =
+        noise_.reported(true_pose(experiment_->truth(), station, time), station, cycle_);
+  }
+  append_record(record, OutputList::for_options(liberty_), bytes_);
 }
 
 void TwinTracker::publish(const PoseSample& sample) {
@@ -75,6 +96,11 @@ void TwinTracker::publish(const PoseSample& sample) {
   station.last_sample = sample.time;
   ++station.samples;
   ++counters_.samples;
+  const StreamCounters stream = stream_->counters();
+  counters_.lost = stream.lost;
+  counters_.bad_records = stream.parser.bad_records + stream.doubtful_counts;
+  counters_.out_of_order = stream.out_of_order;
+  counters_.device_errors = stream.device_errors;
 }
 
 std::string TwinTracker::description() const {

@@ -3,12 +3,15 @@
 // what is written.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -41,6 +44,34 @@ TEST(TwinIsSeparate, LinksNothingThatProjectsOrTriangulates) {
   for (const char* forbidden : kForbiddenSymbols) {
     EXPECT_EQ(symbols.find(forbidden), std::string::npos) << forbidden;
   }
+}
+
+/// Functions a library defines or calls, without those the standard library makes of templates.
+std::set<std::string> functions_of(const char* library) {
+  std::istringstream lines(
+      output_of(std::string(LINESCOPE_NM) + " --demangle '" + library + "' 2>/dev/null"));
+  std::set<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    const auto name = line.size() > 19 ? line.substr(19) : std::string();
+    if (name.rfind("linescope::", 0) == 0 && name.find('(') != std::string::npos) names.insert(name);
+  }
+  return names;
+}
+
+std::vector<std::string> shared_functions() {
+  const auto twin = functions_of(LINESCOPE_TWIN_LIBRARY);
+  const auto product = functions_of(LINESCOPE_RECONSTRUCT_LIBRARY);
+  EXPECT_FALSE(twin.empty() || product.empty()) << "nm found no symbols";
+  std::vector<std::string> shared;
+  std::set_intersection(twin.begin(), twin.end(), product.begin(), product.end(), std::back_inserter(shared));
+  return shared;
+}
+
+// Not only the names we think of: whatever function of ours both call or contain, it is nothing but the
+// composition of rigid transforms.
+TEST(TwinIsSeparate, SharesNoFunctionOfOursWithReconstructionButRigidTransforms) {
+  for (const std::string& name : shared_functions())
+    EXPECT_EQ(name.rfind("linescope::Rigid<", 0), 0u) << name;
 }
 
 std::vector<std::filesystem::path> sources() {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "common/euler.hpp"
 #include "common/units.hpp"
@@ -49,13 +50,17 @@ TEST(TwinTracker, ThreeStationsIn240CyclesPerSecondInTimeOrder) {
     EXPECT_EQ(all[i].frame_count, i / 3);
     EXPECT_EQ(all[i].state, ToolState::ok);
   }
-  EXPECT_EQ(all[3 * 240].time - all[0].time, kSecond);
+  // The clock fit works in doubles: a nanosecond or two.
+  EXPECT_NEAR(static_cast<double>(all[3 * 240].time - all[0].time), 1e9, 3);
 }
 
-TEST(TwinTracker, IdealSamplesAreTheTruth) {
+// A LIBERTY sends centimetres as 32-bit floats: half a unit in the last place is 2e-5 mm at 350 mm, and 3e-8
+// of a quaternion.
+TEST(TwinTracker, IdealSamplesAreTheTruthToTheLastBitOfTheWire) {
   const Spread error = spread(ideal_twin("condyle", Scenario::demo), 9000);
-  EXPECT_LT(error.position, 1e-9);
-  EXPECT_LT(error.rotation, 1e-9);
+  EXPECT_LT(error.position, 3e-5);
+  EXPECT_GT(error.position, 1e-8) << "went past the wire";
+  EXPECT_LT(error.rotation, 2e-7);
 }
 
 TEST(TwinTracker, WhiteNoiseHasTheStatedSize) {
@@ -137,28 +142,47 @@ TEST(TwinTracker, ClockDriftsAsRealUnitsDo) {
   EXPECT_NEAR(static_cast<double>(all.back().time - all.front().time), 1e10 / (1 + 20e-6), 1000);
 }
 
-TEST(TwinTracker, LatencyAndJitterAreErrorsOfTheStampAlone) {
+double worst_stamp_error(const TwinOptions& options, std::size_t from_sample, double latency) {
+  const auto all = samples(options, 9000);
+  double worst = 0;
+  for (std::size_t i = from_sample; i < all.size(); ++i) {
+    const double rate = 240 * (1 + options.tracker.clock_drift_ppm * 1e-6);
+    const double exact = all[i].frame_count * 1e9 / rate;
+    worst = std::max(worst, std::abs(static_cast<double>(all[i].time) - exact - latency));
+  }
+  return worst;
+}
+
+// Cycles arrive late by 60 us and more; the product's clock fit finds the device's rhythm in them.
+TEST(TwinTracker, LateArrivalsAreTakenOutByTheClockFit) {
+  TwinOptions options = ideal_twin("condyle", Scenario::demo);
+  options.tracker.time_jitter_us = 60;
+  options.tracker.clock_drift_ppm = 20;
+  EXPECT_LT(worst_stamp_error(options, 3 * 240 * 4, 0), 10e3);
+}
+
+TEST(TwinTracker, LatencyIsAnErrorOfTheStampAlone) {
   TwinOptions options = ideal_twin("condyle", Scenario::demo);
   options.tracker.latency = 3 * kMillisecond;
-  options.tracker.time_jitter_us = 60;
+  EXPECT_LT(worst_stamp_error(options, 0, 3e6), 5);
   const auto twin = experiment(options);
-  double sum = 0, squares = 0;
-  std::map<int, Nanoseconds> last;
-  const auto all = samples(options, 3000);
-  for (const PoseSample& sample : all) {
+  for (const PoseSample& sample : samples(options, 300)) {
     const Nanoseconds exact = std::llround(sample.frame_count * 1e9 / 240);
-    const double error = static_cast<double>(sample.time - exact);
-    sum += error;
-    squares += error * error;
-    EXPECT_EQ(sample.world_from_sensor.translation(), truth_of(*twin, sample, exact).translation());
+    EXPECT_LT((sample.world_from_sensor.translation() - truth_of(*twin, sample, exact).translation()).norm(),
+              1e-4);
+  }
+}
+
+TEST(TwinTracker, TimesOfAStationGrow) {
+  TwinOptions options = ideal_twin("condyle", Scenario::demo);
+  options.tracker.time_jitter_us = 400;
+  std::map<int, Nanoseconds> last;
+  for (const PoseSample& sample : samples(options, 3000)) {
     if (last.contains(sample.station)) {
       EXPECT_GT(sample.time, last[sample.station]);
     }
     last[sample.station] = sample.time;
   }
-  const double mean = sum / 3000;
-  EXPECT_NEAR(mean, 3e6, 60e3 * 4 / std::sqrt(1000.0));  // the three stations share a stamp
-  EXPECT_NEAR(std::sqrt(squares / 3000 - mean * mean), 60e3, 6e3);
 }
 
 TEST(TwinTracker, DropOutsComeAsOftenAsAskedAndCarryNoPose) {
