@@ -102,6 +102,12 @@ Kernels kernels(bool allow_simd) {
   return {};
 }
 
+/// Lines share their errors, so few lines follow a bent fit more closely than they should: what a fit that
+/// takes three of them away leaves, brought back to size.
+float shrinkage(float lines) {
+  return std::sqrt(lines / std::max(lines - 3, 0.25f * lines));
+}
+
 /// Eight segments at a time, in single precision: this only decides what belongs to the surface.
 class Reweighting {
  public:
@@ -137,25 +143,17 @@ class Reweighting {
 
   void compute_residuals() { kernels_.residuals(patch_, padded_, inverse_radius_, beta_, residuals_); }
 
-  /// Lines share their errors, so few lines follow a bent fit more closely than they should: what a fit that
-  /// takes three of them away leaves, brought back to size.
-  float shrinkage(float reach) const {
-    std::bitset<Patch::kMostLines> seen;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(patch_.size); ++i)
-      if (squared_distance(i) <= reach * reach) seen.set(patch_.line[i]);
-    const auto lines = static_cast<float>(seen.count());
-    return std::sqrt(lines / std::max(lines - 3, 0.25f * lines));
-  }
-
   /// Median of the residuals within a distance from the foot, as a standard deviation; by counting in bins an
   /// eighth of an octave wide (exponent and three bits of a float), within a per cent or so.
   float robust_scale(float reach) const {
     constexpr std::uint32_t kLowest = 112u << 3;  // 2^-15 mm
     constexpr std::uint32_t kBins = 24u << 3;
     std::array<std::uint16_t, kBins> bins{};
+    std::bitset<Patch::kMostLines> lines;
     int n = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch_.size); ++i) {
       if (squared_distance(i) > reach * reach) continue;
+      lines.set(patch_.line[i]);
       const std::uint32_t bin = std::bit_cast<std::uint32_t>(residuals_[i]) >> 20;
       ++bins[std::clamp(bin, kLowest, kLowest + kBins - 1) - kLowest];
       ++n;
@@ -168,7 +166,7 @@ class Reweighting {
     const float share = bins[bin] > 0 ? (0.5f * static_cast<float>(n) - static_cast<float>(below)) /
                                             static_cast<float>(bins[bin])
                                       : 0.0f;
-    return shrinkage(reach) * 1.4826f * (low + share * (high - low));
+    return shrinkage(static_cast<float>(lines.count())) * 1.4826f * (low + share * (high - low));
   }
 
   template <class Weight>

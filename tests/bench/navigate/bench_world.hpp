@@ -1,6 +1,8 @@
 // The scans that navigation is measured on, the spots asked for, and how times and errors are tallied.
 #pragma once
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -16,6 +18,13 @@ using namespace phantom;
 inline double microseconds() {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+/// Of this thread alone: what a scheduler takes away does not count.
+inline double processor_microseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
 inline double percentile(std::vector<double> values, double share) {
@@ -51,15 +60,18 @@ struct World {
 
 /// Times and errors of one way.
 struct Tally {
-  std::vector<double> times;
+  std::vector<double> times;            ///< by the clock on the wall
+  std::vector<double> processor_times;  ///< by the processor's
   double error = 0;
   int asked = 0, answered = 0;
 
   template <class Ask>
   void time(Ask&& ask, const Eigen::Vector3d& truth) {
-    const double start = microseconds();
+    const double processor_start = processor_microseconds(), start = microseconds();
     const std::optional<Eigen::Vector3d> normal = ask();
-    times.push_back(microseconds() - start);
+    const double end = microseconds();
+    processor_times.push_back(processor_microseconds() - processor_start);
+    times.push_back(end - start);
     ++asked;
     if (!normal) return;
     const double angle = angle_difference(*normal, truth);
