@@ -18,8 +18,7 @@ class FrameSequence {
     new_epoch,  ///< believed, and the clock was reset
   };
 
-  explicit FrameSequence(const FrameClockOptions& options)
-      : clock_(options), period_(1e9 / options.nominal_hz) {}
+  explicit FrameSequence(const FrameClockOptions& options) : clock_(options) {}
 
   /// `frame` receives the count as a 64-bit number that never goes back from epoch to epoch.
   Verdict accept(std::uint32_t count, Nanoseconds arrival, std::int64_t& frame);
@@ -32,7 +31,6 @@ class FrameSequence {
   Verdict doubt(std::uint32_t count, Nanoseconds arrival, std::int64_t& frame);
 
   FrameClock clock_;
-  double period_;
   bool started_ = false;
   std::int64_t newest_ = 0;  ///< highest frame so far
   std::uint32_t newest_count_ = 0;

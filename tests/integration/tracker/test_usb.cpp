@@ -150,6 +150,7 @@ TEST_F(LibertyUsb, RenumeratesFromLoaderToUnitAndThroughAReplug) {
   FakeUsb again(bus, unit, {.device = 11});
   ASSERT_TRUE(driver.run_until([&] { return driver.source().counters().reconnects == 1; }));
   EXPECT_EQ(driver.source().station(7).state, ToolState::ok);
+  driver.source().stop();  // before its device goes out of scope
 }
 
 }  // namespace

@@ -124,8 +124,13 @@ FakeUsb::FakeUsb(FakeBus& bus, FakeLiberty& unit, const UsbPlace& place)
   });
 }
 
+/// Who still holds the device open gets no answers from here on.
 FakeUsb::~FakeUsb() {
   unplug();
+  {
+    const std::lock_guard lock(mutex_);
+    g_signal_handlers_disconnect_by_data(handler_, this);
+  }
   stopping_ = true;
   ticker_.join();
   umockdev_testbed_detach_ioctl(bus_.testbed(), node_.c_str(), nullptr);

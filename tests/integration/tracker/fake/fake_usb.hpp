@@ -38,7 +38,7 @@ struct UsbPlace {
   std::string port = "2";  ///< path "1-2"
 };
 
-/// Plugged in from construction to unplug() or destruction.
+/// Plugged in from construction to unplug() or destruction. Destroy it after those who use it have closed it.
 class FakeUsb {
  public:
   FakeUsb(FakeBus& bus, FakeLiberty& unit, const UsbPlace& place = {});
