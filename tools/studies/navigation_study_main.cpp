@@ -1,6 +1,7 @@
 // navigation_study: prints the navigation table (docs/navigation.md). Takes minutes: it renders every
 // picture.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -68,6 +69,8 @@ int run(int argc, char** argv) {
   app.add_option("--only", command.only, "conditions whose name contains one of these");
   app.add_flag("--limits", command.limits, "take one source of error away at a time instead");
   CLI11_PARSE(app, argc, argv);
+  spdlog::set_level(
+      spdlog::level::warn);  // every experiment would report its scan in the middle of the table
   return command.limits ? print_limits(command) : print_table(command);
 }
 
