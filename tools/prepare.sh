@@ -12,7 +12,7 @@ missing_packages() {  # $1: kinds, for example "run test"
   while read -r kind package; do
     case " $1 " in *" $kind "*) ;; *) continue ;; esac
     dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || echo "$package"
-  done < <(grep -v '^#' "$root/tools/packages.txt")
+  done < <(grep -v "^#" "$root/tools/packages.txt") | sort -u
 }
 
 prepare_packages() {

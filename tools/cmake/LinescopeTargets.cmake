@@ -31,10 +31,11 @@ endfunction()
 add_custom_target(tests_sanitized)
 add_custom_target(tests_threads)
 
-# linescope_test(NAME LABELS unit surface SOURCES ... LIBS ... [TIMEOUT s] [THREADS]): one GoogleTest program, a CTest test
-# per case. THREADS: worth running under ThreadSanitizer.
+# linescope_test(NAME LABELS unit surface SOURCES ... LIBS ... [TIMEOUT s] [THREADS] [QT]): one GoogleTest program, a CTest
+# test per case. THREADS: worth running under ThreadSanitizer. QT: linked with Qt, which brings compiler options that the
+# precompiled headers were not made with.
 function(linescope_test name)
-  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "LABELS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS;QT" "TIMEOUT" "LABELS;SOURCES;LIBS" ${ARGN})
   if(ARG_THREADS)
     list(APPEND ARG_LABELS threads)
   endif()
@@ -44,7 +45,9 @@ function(linescope_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
     linescope_warnings linescope_sanitize)
-  target_precompile_headers(${name} REUSE_FROM linescope_test_headers)
+  if(NOT ARG_QT)
+    target_precompile_headers(${name} REUSE_FROM linescope_test_headers)
+  endif()
   if("unit" IN_LIST ARG_LABELS OR "fuzz" IN_LIST ARG_LABELS)
     add_dependencies(tests_sanitized ${name})
   endif()
