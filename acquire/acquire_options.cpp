@@ -85,6 +85,9 @@ void declare_tracker(ConfigSchema& schema, TrackerChoice& tracker, TrackerKeys& 
                  "Station of sensor 2, on the knee; 0: none.");
   schema.integer("tracker.harvester_station", keys.harvester_station, {.min = 0, .max = 8},
                  "Station of sensor 3, on the harvester; 0: none.");
+  schema.number("tracker.pose_mean_ms", keys.pose_mean_ms, {.unit = "ms", .min = 0, .max = 50},
+                "A line's pose is the mean over this time about its picture: less noise, slow hands only; 0: the "
+                "pose interpolated at that instant.");
 }
 
 void declare_liberty_port(ConfigSchema& schema, LibertyOptions& liberty) {
@@ -227,6 +230,7 @@ void declare(ConfigSchema& schema, AcquireOptions& options) {
 
 Result<void> apply_keys(const TrackerKeys& keys, TrackerChoice& tracker) {
   tracker.roles = {keys.endoscope_station - 1, keys.object_station - 1, keys.harvester_station - 1};
+  tracker.history.mean_over = static_cast<Nanoseconds>(keys.pose_mean_ms * double{kMillisecond});
   LibertyOptions& liberty = tracker.liberty;
   liberty.stations = 0;
   for (const double station : keys.stations) {

@@ -61,6 +61,7 @@ struct TrackerKeys {
   std::vector<double> hemisphere{1, 0, 0};
   std::vector<double> position_filter;  ///< F, FLow, FHigh, Factor; empty: off
   std::vector<double> attitude_filter;
+  double pose_mean_ms = 0;
 };
 
 struct TrackerChoice {

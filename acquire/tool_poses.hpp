@@ -15,10 +15,9 @@ struct ToolPoses {
   LinePose<Harvester> harvester;
 };
 
-/// Looks the poses up: interpolated, never extrapolated, and averaged over seven instants spread evenly over
-/// PoseHistoryOptions::mean_over about the picture's own. One sample of the tracker alone shakes a line more
-/// than everything else together, and a hand goes straight on for so short a time. Called by the line's
-/// thread only.
+/// Looks the poses up: interpolated, never extrapolated, and, where PoseHistoryOptions::mean_over asks for it,
+/// averaged over seven instants spread evenly over that time about the picture's own: a noisy tracker shakes a
+/// line less then, a hand that turns back within so short a time is smoothed. Called by the line's thread only.
 class ToolPoseLookup {
  public:
   ToolPoseLookup(const PoseHistory& history, const StationRoles& roles, Nanoseconds longest_wait)

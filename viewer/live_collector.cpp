@@ -36,8 +36,8 @@ ToolView without_station() {
   return tool;
 }
 
-std::shared_ptr<const PictureView> picture_view(const Picture& picture) {
-  auto view = std::make_shared<PictureView>();
+std::shared_ptr<const CameraPicture> picture_view(const Picture& picture) {
+  auto view = std::make_shared<CameraPicture>();
   view->time = picture.time;
   view->frame = picture.frame;
   view->width = static_cast<int>(picture.width);

@@ -64,7 +64,7 @@ struct CameraView {
 };
 
 /// Immutable once published; shared between threads.
-struct PictureView {
+struct CameraPicture {
   Nanoseconds time = 0;
   std::uint64_t frame = 0;
   int width = 0, height = 0, channels = 3;  ///< channels: 1 grey, 3 blue-green-red
@@ -131,7 +131,7 @@ struct LiveView {
   std::string calibration_name;
   std::string calibration_trouble;  ///< why the daemon's calibration cannot be used
   HarvesterCalibration harvester;
-  std::shared_ptr<const PictureView> picture;
+  std::shared_ptr<const CameraPicture> picture;
   std::shared_ptr<const DiagnosticsView> diagnostics;
 
   const ToolView& tool(ToolRole role) const { return tools[static_cast<std::size_t>(role)]; }

@@ -47,6 +47,8 @@ function(linescope_test name)
     linescope_warnings linescope_sanitize)
   if(NOT ARG_QT)
     target_precompile_headers(${name} REUSE_FROM linescope_test_headers)
+    # GCC 12 sees ghosts in std::string built from a literal, and with precompiled headers it says so.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
   endif()
   if("unit" IN_LIST ARG_LABELS OR "fuzz" IN_LIST ARG_LABELS)
     add_dependencies(tests_sanitized ${name})

@@ -24,7 +24,7 @@ namespace linescope::study {
 struct StudyCondition {
   std::string name;                                        ///< for people
   twin::TwinOptions twin;                                  ///< seed, start and duration are set by the study
-  Nanoseconds mean_over = PoseHistoryOptions{}.mean_over;  ///< of a picture's pose; 0: interpolated only
+  Nanoseconds mean_over = 25 * kMillisecond;  ///< of a picture's pose; 0: interpolated only
 };
 
 /// The cylinder of the thesis with one, two and four sweeps, then one thing changed at a time: phantom,

@@ -19,7 +19,7 @@
 
 namespace linescope {
 
-struct SegmentOptions {
+struct LineSegmentOptions {
   double length = 1.0;             ///< of a piece along its line, mm
   double unknown_deviation = 0.1;  ///< standard deviation of a point that does not state one, mm
   double smallest_cut = 0.06;      ///< a point nearer than this to its piece's line is never left out, mm
@@ -49,7 +49,7 @@ struct CutSegment {
 /// Cuts lines; keeps its buffers from line to line. Not for two threads at once.
 class LineCutter {
  public:
-  explicit LineCutter(const SegmentOptions& options) : options_(options) {}
+  explicit LineCutter(const LineSegmentOptions& options) : options_(options) {}
 
   /// The segments of a line (their `line` is not set), each with the cell its mean lies in, valid until the
   /// next call; points that are not finite or beyond the grid are left out and counted in
@@ -74,7 +74,7 @@ class LineCutter {
   /// Makes a segment of the samples on a straight line and returns where the left-out ones begin.
   Samples emit(Samples begin, Samples end, const Eigen::Vector3d& view, const CellGrid& grid);
 
-  SegmentOptions options_;
+  LineSegmentOptions options_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();      ///< first usable point of the line
   Eigen::Vector3d direction_ = Eigen::Vector3d::UnitX();  ///< of the line, across the view
   std::vector<Sample> samples_;

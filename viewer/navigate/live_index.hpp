@@ -26,7 +26,7 @@ struct LiveIndexOptions {
   double plane_reach =
       2.0;  ///< of the plain normal: its weights fall to zero at this distance, mm; at most 1.5 cells
   int plane_points = 24;  ///< fewer points than this give no plain normal
-  SegmentOptions segments;
+  LineSegmentOptions segments;
 };
 
 Result<void> validate(const LiveIndexOptions& options);

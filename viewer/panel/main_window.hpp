@@ -97,7 +97,7 @@ class MainWindow : public QMainWindow {
   std::optional<Eigen::Vector3d> measure_from_;
   bool measuring_ = false;
   QStringList log_;
-  Pace late_, draw_;
+  PaceMeter late_, draw_;
   QElapsedTimer since_draw_;
   double last_draw_ms_ = 0;
 

@@ -7,7 +7,7 @@
 
 namespace linescope {
 
-class Pace {
+class PaceMeter {
  public:
   void add(double milliseconds) {
     if (values_.size() < kKept)

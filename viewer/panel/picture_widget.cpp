@@ -9,7 +9,7 @@ namespace linescope {
 namespace {
 
 /// No copy: the picture outlives the image, which is only drawn.
-QImage image_of(const PictureView& p) {
+QImage image_of(const CameraPicture& p) {
   const auto format = p.channels == 1 ? QImage::Format_Grayscale8 : QImage::Format_BGR888;
   return {p.pixels.data(), p.width, p.height, p.width * p.channels, format};
 }
@@ -28,7 +28,7 @@ int PictureWidget::heightForWidth(int width) const {
   return width * 3 / 4;
 }
 
-void PictureWidget::show_picture(std::shared_ptr<const PictureView> picture, const QString& why_old) {
+void PictureWidget::show_picture(std::shared_ptr<const CameraPicture> picture, const QString& why_old) {
   if (picture == picture_ && why_old == why_old_) return;
   picture_ = std::move(picture);
   why_old_ = why_old;

@@ -13,7 +13,7 @@ class PictureWidget : public QWidget {
   explicit PictureWidget(QWidget* parent = nullptr);
 
   /// `why_old`: when not empty the picture is dimmed and this is written over it.
-  void show_picture(std::shared_ptr<const PictureView> picture, const QString& why_old);
+  void show_picture(std::shared_ptr<const CameraPicture> picture, const QString& why_old);
 
   bool has_picture() const { return picture_ != nullptr; }
 
@@ -25,7 +25,7 @@ class PictureWidget : public QWidget {
  private:
   void paint_line(QPainter& painter, const QRectF& into) const;
 
-  std::shared_ptr<const PictureView> picture_;
+  std::shared_ptr<const CameraPicture> picture_;
   QString why_old_;
 };
 

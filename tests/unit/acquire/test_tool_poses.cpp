@@ -16,7 +16,7 @@ class ToolPosesTest : public ::testing::Test {
     ASSERT_TRUE(history_.add(s));
   }
 
-  PoseHistory history_;
+  PoseHistory history_{{.mean_over = 25 * kMillisecond}};
   ToolPoseLookup lookup_{history_, StationRoles{}, 60 * kMillisecond};
 };
 

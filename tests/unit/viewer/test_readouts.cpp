@@ -153,7 +153,7 @@ TEST(Banner, WhenEveryToolIsLateItIsNoCable) {
 TEST(CameraStatus, PicturesOfLongAgoAreNotLive) {
   Good g;
   g.live.camera.state = ToolState::ok;
-  auto picture = std::make_shared<PictureView>();
+  auto picture = std::make_shared<CameraPicture>();
   picture->time = kNow - 3 * kSecond;
   g.live.picture = picture;
   const StatusLine line = camera_status(g.live, kNow);
