@@ -17,7 +17,7 @@ void declare_run(ConfigSchema& schema, RunOptions& run) {
   schema.text("run.group", run.group,
               "Group whose members may read the segment; empty: only the user who started the daemon.");
   schema.number("run.capacity_minutes", run.capacity_minutes, {.unit = "min", .min = 0.1, .max = 600},
-                 "Scanning time for which the segment has room.");
+                "Scanning time for which the segment has room.");
   schema.flag("run.scan_at_start", run.scan_at_start, "Scan at once instead of waiting for the Scan button.");
   schema.choice("run.pace", run.pace, {{"real-time", Pace::real_time}, {"fast", Pace::fast}},
                 "Speed at which recorded and simulated sources are played.");
@@ -85,9 +85,10 @@ void declare_tracker(ConfigSchema& schema, TrackerChoice& tracker, TrackerKeys& 
                  "Station of sensor 2, on the knee; 0: none.");
   schema.integer("tracker.harvester_station", keys.harvester_station, {.min = 0, .max = 8},
                  "Station of sensor 3, on the harvester; 0: none.");
-  schema.number("tracker.pose_mean_ms", keys.pose_mean_ms, {.unit = "ms", .min = 0, .max = 50},
-                "A line's pose is the mean over this time about its picture: less noise, slow hands only; 0: the "
-                "pose interpolated at that instant.");
+  schema.number(
+      "tracker.pose_mean_ms", keys.pose_mean_ms, {.unit = "ms", .min = 0, .max = 50},
+      "A line's pose is the mean over this time about its picture: less noise, slow hands only; 0: the "
+      "pose interpolated at that instant.");
 }
 
 void declare_liberty_port(ConfigSchema& schema, LibertyOptions& liberty) {

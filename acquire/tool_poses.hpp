@@ -15,9 +15,10 @@ struct ToolPoses {
   LinePose<Harvester> harvester;
 };
 
-/// Looks the poses up: interpolated, never extrapolated, and, where PoseHistoryOptions::mean_over asks for it,
-/// averaged over seven instants spread evenly over that time about the picture's own: a noisy tracker shakes a
-/// line less then, a hand that turns back within so short a time is smoothed. Called by the line's thread only.
+/// Looks the poses up: interpolated, never extrapolated, and, where PoseHistoryOptions::mean_over asks for
+/// it, averaged over seven instants spread evenly over that time about the picture's own: a noisy tracker
+/// shakes a line less then, a hand that turns back within so short a time is smoothed. Called by the line's
+/// thread only.
 class ToolPoseLookup {
  public:
   ToolPoseLookup(const PoseHistory& history, const StationRoles& roles, Nanoseconds longest_wait)

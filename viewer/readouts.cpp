@@ -222,8 +222,13 @@ StatusLine camera_status(const LiveView& live, Nanoseconds now) {
   }
   if (camera.state == ToolState::ok) {
     line.detail = camera.rate_hz > 0 ? fmt::format("{:.0f} Hz", camera.rate_hz) : camera.name;
-    // The daemon's words on the laser's light: "raise the laser: line dim ...".
-    if (!camera.reason.empty()) line.detail += " · " + camera.reason;
+    // The daemon's words on the laser's light: "line quality 0.83, 2 % burnt out; lower the laser: ...". What
+    // is to be done comes first, the card is narrow.
+    const std::size_t hint = camera.reason.find("; ");
+    if (hint != std::string::npos)
+      return {line.title, line.word, camera.reason.substr(hint + 2), Mood::caution};
+    const std::string quality = camera.reason.substr(0, camera.reason.find(','));
+    if (!quality.empty()) line.detail += " · " + quality;
     return line;
   }
   line.detail = joined(camera.reason, age_text(camera.last_picture, now));

@@ -19,8 +19,8 @@ namespace linescope {
 struct PoseHistoryOptions {
   int capacity = 2048;                          ///< samples kept per station (8.5 s at 240 Hz); 2 or more
   Nanoseconds longest_gap = 50 * kMillisecond;  ///< two neighbours further apart are not interpolated
-  /// A picture's pose is the mean over this time about its instant (ToolPoseLookup); 0: the pose interpolated at
-  /// that instant.
+  /// A picture's pose is the mean over this time about its instant (ToolPoseLookup); 0: the pose interpolated
+  /// at that instant.
   Nanoseconds mean_over = 0;
 };
 Result<void> validate(const PoseHistoryOptions& options);

@@ -162,6 +162,18 @@ TEST(CameraStatus, PicturesOfLongAgoAreNotLive) {
   EXPECT_EQ(line.mood, Mood::bad);
 }
 
+TEST(CameraStatus, WhatToDoWithTheLaserComesFirst) {
+  Good g;
+  g.live.camera.state = ToolState::ok;
+  g.live.camera.rate_hz = 30;
+  g.live.camera.reason = "line quality 0.83, 2 % burnt out";
+  EXPECT_EQ(camera_status(g.live, kNow).detail, "30 Hz · line quality 0.83");
+  g.live.camera.reason += "; lower the laser: the exposure is at its shortest";
+  const StatusLine line = camera_status(g.live, kNow);
+  EXPECT_EQ(line.detail, "lower the laser: the exposure is at its shortest");
+  EXPECT_EQ(line.mood, Mood::caution);
+}
+
 TEST(Banner, TellsOfLinesThatAreNotDrawn) {
   Good g;
   g.live.scan.lines_unplaced = 1234;
