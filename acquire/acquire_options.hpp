@@ -33,7 +33,7 @@ enum class Pace : std::uint8_t {
 
 struct RunOptions {
   std::string segment = "linescope";
-  std::string group;         ///< group that may read the segment; empty: only this user
+  std::string group;            ///< group that may read the segment; empty: only this user
   double capacity_minutes = 5;  ///< scanning time the segment holds at 30 lines per second
   bool scan_at_start = false;
   Pace pace = Pace::real_time;

@@ -4,34 +4,14 @@
 #include <array>
 #include <limits>
 
+#include "acquire/tracker/pose_mean.hpp"
+
 namespace linescope {
 namespace {
 
 constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::min();
 
 constexpr int kInstantsPerSide = 3;
-
-/// Mean of rotations that differ little, and of positions.
-class PoseMean {
- public:
-  explicit PoseMean(const Rigid<World, Sensor>& first)
-      : first_(first.rotation()), rotation_(first.rotation().coeffs()), position_(first.translation()) {}
-
-  void add(const Rigid<World, Sensor>& pose) {
-    const Eigen::Vector4d& q = pose.rotation().coeffs();
-    rotation_ += q.dot(first_.coeffs()) < 0 ? Eigen::Vector4d(-q) : q;
-    position_ += pose.translation();
-    ++count_;
-  }
-
-  Rigid<World, Sensor> value() const { return {Eigen::Quaterniond(rotation_), position_ / count_}; }
-
- private:
-  Eigen::Quaterniond first_;
-  Eigen::Vector4d rotation_;
-  Eigen::Vector3d position_;
-  int count_ = 1;
-};
 
 template <class Tool>
 LinePose<Tool> line_pose(const PoseAnswer& answer) {
@@ -72,9 +52,10 @@ bool ToolPoseLookup::settled(Nanoseconds time) const {
 
 PoseAnswer ToolPoseLookup::mean_about(int station, Nanoseconds time) const {
   PoseAnswer answer = history_.pose_at(station, time);
-  if (!answer.ok()) return answer;
-  PoseMean mean(answer.world_from_sensor);
-  for (int k = 1; step_ > 0 && k <= kInstantsPerSide; ++k) {
+  if (!answer.ok() || step_ == 0) return answer;
+  PoseMean mean;
+  mean.add(answer.world_from_sensor);
+  for (int k = 1; k <= kInstantsPerSide; ++k) {
     const PoseAnswer before = history_.pose_at(station, time - k * step_);
     const PoseAnswer after = history_.pose_at(station, time + k * step_);
     if (!before.ok() || !after.ok()) break;

@@ -4,17 +4,13 @@
 
 #include "viewer/navigate/normal_estimator.hpp"
 #include "viewer/navigate/steady_harvester.hpp"
+#include "viewer/navigation_line.hpp"
 
 namespace linescope {
 namespace {
 
 NormalMethod method_of(NormalChoice choice) {
   return choice == NormalChoice::robust ? NormalMethod::robust : NormalMethod::algorithm_1;
-}
-
-Eigen::Vector3d view_direction(const HeldLine& line) {
-  const Eigen::Vector3d middle = line.points[line.points.size() / 2].position.cast<double>();
-  return (middle - line.seen_from).normalized();
 }
 
 void copy(const NormalEstimate& estimate, NavigationView& view) {
@@ -45,15 +41,8 @@ struct NavigationWorker::Work {
 
   void take(const LineNews& news) {
     if (news.forget) estimator.clear();
-    for (const auto& line : news.lines) {
-      if (line->points.empty()) continue;
-      NavigationLine in;
-      in.id = line->serial;
-      in.time = line->time;
-      in.view = view_direction(*line);
-      in.points = line->points;
-      estimator.add_line(in);
-    }
+    for (const auto& line : news.lines)
+      if (!line->points.empty()) estimator.add_line(navigation_line(*line));
   }
 
   std::shared_ptr<const NavigationView> answer(const LiveView& live, NormalChoice choice) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "acquire/tracker/pose_mean.hpp"
+
 namespace linescope {
 namespace {
 
@@ -78,25 +80,6 @@ PoseAnswer between(const PoseSample& a, const PoseSample& b, Nanoseconds time, N
   return answer;
 }
 
-/// Mean of poses that lie close together: quaternions summed in one hemisphere, which for the fraction of a
-/// degree a hand turns within one exposure is the mean rotation to second order.
-class MeanPose {
- public:
-  void add(const Rigid<World, Sensor>& pose) {
-    const Eigen::Vector4d q = pose.rotation().coeffs();
-    rotation_ += q.dot(rotation_) < 0 ? Eigen::Vector4d(-q) : q;
-    translation_ += pose.translation();
-    ++count_;
-  }
-  int count() const { return count_; }
-  Rigid<World, Sensor> value() const { return {Eigen::Quaterniond(rotation_), translation_ / count_}; }
-
- private:
-  Eigen::Vector4d rotation_ = Eigen::Vector4d::Zero();
-  Eigen::Vector3d translation_ = Eigen::Vector3d::Zero();
-  int count_ = 0;
-};
-
 }  // namespace
 
 Result<void> validate(const PoseHistoryOptions& options) {
@@ -166,7 +149,7 @@ PoseAnswer PoseHistory::mean_pose(int station, Nanoseconds from, Nanoseconds to)
   if (!last.ok()) return last;
   const SampleRing& ring = *rings_[static_cast<std::size_t>(station)];
   PoseSample sample;
-  MeanPose mean;
+  PoseMean mean;
   Nanoseconds previous = from;
   for (std::uint64_t i = find(ring, from).after_index; i < ring.end(); ++i) {
     if (!ring.read(i, sample)) return missed(PoseMiss::too_early, ToolState::stale);

@@ -8,7 +8,6 @@
 #include "tools/evaluate/seed_values.hpp"
 #include "tools/evaluate/setups.hpp"
 #include "tools/evaluate/shape_fits.hpp"
-#include "tools/evaluate/surfaces.hpp"
 #include "tools/evaluate/virtual_session.hpp"
 
 namespace linescope::evaluate {
@@ -35,9 +34,7 @@ struct Section2 {
   Points2 points, mesh;
 };
 
-struct SectionPair {
-  Section2 plain, better;
-};
+using SectionPair = Columns<Section2>;
 
 Points2 across(const Rigid<twin::PhantomFrame, Object>& phantom_from_object,
                const std::vector<Eigen::Vector3f>& places) {
@@ -72,13 +69,7 @@ Result<Section2> measured(const VirtualSession& session, const SessionOptions& a
 Result<SectionPair> scanned(const Cylinder& cylinder, const Form& form, std::uint64_t seed) {
   twin::TwinOptions options = sweeping_freely(cylinder.instrument(seed), form.scan_seconds);
   options.phantom = phantom(cylinder.phantom);
-  auto session = VirtualSession::render(options);
-  if (!session) return tl::unexpected(session.error());
-  auto plain = measured(*session, thesis_session(), kThesisMesh);
-  if (!plain) return tl::unexpected(plain.error());
-  auto better = measured(*session, better_session(), kBetterMesh);
-  if (!better) return tl::unexpected(better.error());
-  return SectionPair{std::move(*plain), std::move(*better)};
+  return both_columns(options, measured);
 }
 
 /// All of a seed, so that both tables come out of the same scans.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tools/evaluate/setups.hpp"
-#include "tools/evaluate/virtual_session.hpp"
+#include "tools/evaluate/surfaces.hpp"
 
 namespace linescope::evaluate {
 namespace {
@@ -89,21 +89,9 @@ Result<std::vector<Spot>> spots_of(const Form& form, std::uint64_t seed) {
   return spots;
 }
 
-NormalEstimator estimator_of(const HeldLines& lines) {
-  NormalEstimator estimator;
-  for (const auto& line : lines) {
-    if (line->points.empty()) continue;
-    const Eigen::Vector3d middle = line->points[line->points.size() / 2].position.cast<double>();
-    estimator.add_line({line->serial, line->time, (middle - line->seen_from).normalized(), line->points});
-  }
-  return estimator;
-}
-
-Result<SpotReport> asked(const VirtualSession& session, const SessionOptions& algorithms, NormalMethod method,
-                         const std::vector<Spot>& spots) {
-  auto scan = session.acquire(algorithms);
-  if (!scan) return tl::unexpected(scan.error());
-  return run_spots(estimator_of(scan->lines), spots, method);
+/// The thesis's normal belongs to the thesis's column.
+NormalMethod normal_of(MeshMethod column) {
+  return column == kThesisMesh ? NormalMethod::algorithm_1 : NormalMethod::robust;
 }
 
 }  // namespace
@@ -113,13 +101,14 @@ Result<NavigationOutcome> navigation_experiment(const Form& form, std::uint64_t 
   if (!spots) return tl::unexpected(spots.error());
   // The scan is a little older than the spots; its age is not what is asked for here.
   for (Spot& spot : *spots) spot.query.now = nanoseconds_from_seconds(form.scan_seconds);
-  auto session = VirtualSession::render(scan_options(form, seed));
-  if (!session) return tl::unexpected(session.error());
-  auto plain = asked(*session, thesis_session(), NormalMethod::algorithm_1, *spots);
-  if (!plain) return tl::unexpected(plain.error());
-  auto better = asked(*session, better_session(), NormalMethod::robust, *spots);
-  if (!better) return tl::unexpected(better.error());
-  return NavigationOutcome{std::move(*plain), std::move(*better)};
+  return both_columns(
+      scan_options(form, seed),
+      [&](const VirtualSession& session, const SessionOptions& algorithms,
+          MeshMethod column) -> Result<SpotReport> {
+        auto scan = session.acquire(algorithms);
+        if (!scan) return tl::unexpected(scan.error());
+        return run_spots(estimator_of(scan->lines), *spots, normal_of(column));
+      });
 }
 
 }  // namespace linescope::evaluate

@@ -3,17 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "tools/evaluate/form.hpp"
+#include "tools/evaluate/virtual_session.hpp"
 #include "viewer/navigate/spot_experiment.hpp"
 
 namespace linescope::evaluate {
 
-struct NavigationOutcome {
-  SpotReport plain;   ///< thesis's extraction and Algorithm 1
-  SpotReport better;  ///< better extraction and the robust estimate
-};
+/// Plain: the thesis's extraction and Algorithm 1; better: better extraction and the robust estimate.
+using NavigationOutcome = Columns<SpotReport>;
 
 /// One experiment: its own scan, its own spots. The harvester's tip and axis are what the tracker says while
 /// the operator holds still.

@@ -22,7 +22,7 @@ twin::TwinOptions without_noise(const char* name, const Form& form, std::uint64_
   return options;
 }
 
-Result<double> rms(const VirtualSession& session, const SessionOptions& algorithms) {
+Result<double> rms(const VirtualSession& session, const SessionOptions& algorithms, MeshMethod) {
   auto scan = session.acquire(algorithms);
   if (!scan) return tl::unexpected(scan.error());
   return deviations_of(scan->lines, session.truth()).rms;
@@ -31,15 +31,9 @@ Result<double> rms(const VirtualSession& session, const SessionOptions& algorith
 Result<SeedValues> one_seed(const Form& form, std::uint64_t seed) {
   SeedValues values;
   for (const char* name : kPhantoms) {
-    auto session = VirtualSession::render(without_noise(name, form, seed));
-    if (!session) return tl::unexpected(session.error());
-    auto plain = rms(*session, thesis_session());
-    if (!plain) return tl::unexpected(plain.error());
-    SessionOptions sharp = better_session();
-    sharp.history.mean_over = 0;  // there is no noise to average, only a hand that moves meanwhile
-    auto better = rms(*session, sharp);
-    if (!better) return tl::unexpected(better.error());
-    values.push_back({*plain, *better});
+    auto errors = both_columns(without_noise(name, form, seed), rms);
+    if (!errors) return tl::unexpected(errors.error());
+    values.push_back({errors->plain, errors->better});
   }
   return values;
 }

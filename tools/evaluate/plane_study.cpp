@@ -28,19 +28,7 @@ Result<GapResult> measured(const VirtualSession& session, const SessionOptions& 
                    std::abs(first.mean - second.mean) / std::sqrt(2.0)};
 }
 
-struct GapPair {
-  GapResult plain, better;
-};
-
-Result<GapPair> measured(const twin::TwinOptions& options, double seconds) {
-  auto session = VirtualSession::render(options);
-  if (!session) return tl::unexpected(session.error());
-  auto plain = measured(*session, thesis_session(), seconds);
-  if (!plain) return tl::unexpected(plain.error());
-  auto better = measured(*session, better_session(), seconds);
-  if (!better) return tl::unexpected(better.error());
-  return GapPair{*plain, *better};
-}
+using GapPair = Columns<GapResult>;
 
 std::vector<Row> rows_of(const PlaneStudy& study) {
   std::vector<Row> rows;
@@ -101,7 +89,10 @@ Result<SeedValues> one_seed(const PlaneStudy& study, const Form& form, std::uint
   for (const PlaneGap& gap : study.gaps) {
     twin::TwinOptions options = sweeping(study.instrument(seed), gap.gap_mm, form.scan_seconds);
     options.phantom = phantom("plane");
-    auto pair = measured(options, form.scan_seconds);
+    auto pair = both_columns(
+        options, [&](const VirtualSession& session, const SessionOptions& algorithms, MeshMethod) {
+          return measured(session, algorithms, form.scan_seconds);
+        });
     if (!pair) return tl::unexpected(pair.error());
     gaps.push_back(*pair);
   }

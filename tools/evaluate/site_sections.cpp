@@ -7,7 +7,6 @@
 #include "tools/evaluate/sections.hpp"
 #include "tools/evaluate/seed_values.hpp"
 #include "tools/evaluate/setups.hpp"
-#include "tools/evaluate/surfaces.hpp"
 #include "tools/evaluate/virtual_session.hpp"
 
 namespace linescope::evaluate {
@@ -47,20 +46,12 @@ Result<SiteResult> measured(const VirtualSession& session, const SessionOptions&
                     map_of(session, surface.mesh)};
 }
 
-struct SitePair {
-  SiteResult plain, better;
-};
+using SitePair = Columns<SiteResult>;
 
 Result<SitePair> scanned(const Site& site, const Form& form, std::uint64_t seed) {
   twin::TwinOptions options = sweeping_freely(system_ii(seed), form.scan_seconds);
   options.phantom = phantom(site.phantom);
-  auto session = VirtualSession::render(options);
-  if (!session) return tl::unexpected(session.error());
-  auto plain = measured(*session, thesis_session(), kThesisMesh);
-  if (!plain) return tl::unexpected(plain.error());
-  auto better = measured(*session, better_session(), kBetterMesh);
-  if (!better) return tl::unexpected(better.error());
-  return SitePair{std::move(*plain), std::move(*better)};
+  return both_columns(options, measured);
 }
 
 std::vector<Row> site_rows() {

@@ -1,5 +1,7 @@
 #include "tools/evaluate/surfaces.hpp"
 
+#include "viewer/navigation_line.hpp"
+
 namespace linescope::evaluate {
 
 Surface surface_of(const HeldLines& lines, MeshMethod method) {
@@ -14,6 +16,13 @@ Surface surface_of(const HeldLines& lines, MeshMethod method) {
   mesher->write_mesh(surface.mesh);
   surface.grid = mesher->grid_vertices();
   return surface;
+}
+
+NormalEstimator estimator_of(const HeldLines& lines, const NormalEstimatorOptions& options) {
+  NormalEstimator estimator(options);
+  for (const auto& line : lines)
+    if (!line->points.empty()) estimator.add_line(navigation_line(*line));
+  return estimator;
 }
 
 }  // namespace linescope::evaluate

@@ -1,8 +1,9 @@
-// The viewer's meshers on the lines of a session.
+// The viewer's meshers and its normal estimator on the lines of a session.
 #pragma once
 
 #include <vector>
 
+#include "viewer/navigate/normal_estimator.hpp"
 #include "viewer/surface/mesher.hpp"
 #include "viewer/view_state.hpp"
 
@@ -15,6 +16,9 @@ struct Surface {
 
 /// With the mesher's default options at the thesis's cubic interval (1.27 mm).
 Surface surface_of(const HeldLines& lines, MeshMethod method);
+
+/// Holds the points of all lines, as the viewer's does.
+NormalEstimator estimator_of(const HeldLines& lines, const NormalEstimatorOptions& options = {});
 
 /// The columns of the report.
 inline constexpr MeshMethod kThesisMesh = MeshMethod::proposed_cubes;

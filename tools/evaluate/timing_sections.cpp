@@ -33,15 +33,6 @@ double area_per_second(const HeldLines& lines, const twin::TwinOptions& options)
   return length * options.phantom.site_length_mm / options.hand.sweep_seconds;
 }
 
-NormalEstimator estimator_of(const HeldLines& lines) {
-  NormalEstimator estimator;
-  for (const auto& line : lines) {
-    const Eigen::Vector3d middle = line->points[line->points.size() / 2].position.cast<double>();
-    estimator.add_line({line->serial, line->time, (middle - line->seen_from).normalized(), line->points});
-  }
-  return estimator;
-}
-
 double one_normal(const HeldLines& lines, const NormalEstimator& estimator, NormalMethod method) {
   const auto& line = *lines[lines.size() / 2];
   NormalQuery query;

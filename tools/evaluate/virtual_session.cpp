@@ -94,7 +94,6 @@ Rigid<twin::PhantomFrame, Object> VirtualSession::phantom_from_object() const {
 SessionOptions thesis_session() {
   SessionOptions options;
   options.laser.centre = CentreMethod::weighted_mean;
-  options.history.mean_over = 0;
   return options;
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "acquire/camera/camera_source.hpp"
 #include "acquire/twin/virtual_experiment.hpp"
 #include "tools/evaluate/session_run.hpp"
+#include "tools/evaluate/surfaces.hpp"
 
 namespace linescope::evaluate {
 
@@ -37,9 +40,30 @@ class VirtualSession {
   std::shared_ptr<const std::vector<Frame>> pictures_;
 };
 
-/// The two columns of the report: the line's plain weighted mean placed at the pose of its instant, and what
-/// the daemon does by itself (Gauss-weighted middle, pose averaged over some samples).
+/// The two columns of the report: the line's plain weighted mean, and what the daemon does by itself
+/// (Gauss-weighted middle).
 SessionOptions thesis_session();
 SessionOptions better_session();
+
+/// One value per column.
+template <class T>
+struct Columns {
+  T plain, better;
+};
+
+/// Renders once and asks measure(session, algorithms, mesher) -> Result<T> for each column, with that column's
+/// mesher.
+template <class Measure>
+auto both_columns(const twin::TwinOptions& options, Measure&& measure) {
+  using T = typename std::invoke_result_t<Measure, const VirtualSession&, SessionOptions, MeshMethod>::value_type;
+  using Answer = Result<Columns<T>>;
+  auto session = VirtualSession::render(options);
+  if (!session) return Answer(tl::unexpected(session.error()));
+  auto plain = measure(*session, thesis_session(), kThesisMesh);
+  if (!plain) return Answer(tl::unexpected(plain.error()));
+  auto better = measure(*session, better_session(), kBetterMesh);
+  if (!better) return Answer(tl::unexpected(better.error()));
+  return Answer(Columns<T>{std::move(*plain), std::move(*better)});
+}
 
 }  // namespace linescope::evaluate

@@ -5,12 +5,12 @@
 
 #include "acquire/twin/timeline.hpp"
 #include "common/units.hpp"
+#include "tools/evaluate/surfaces.hpp"
 #include "tools/studies/navigation_study_scan.hpp"
 #include "tools/studies/navigation_study_spots.hpp"
 #include "viewer/navigate/angle_difference.hpp"
 #include "viewer/navigate/spot_experiment.hpp"
 #include "viewer/navigate/triangle_locator.hpp"
-#include "viewer/surface/mesher.hpp"
 
 namespace linescope::study {
 namespace {
@@ -37,11 +37,6 @@ Nanoseconds scan_duration(const twin::HandOptions& hand) {
   return t;
 }
 
-NavigationLine navigation_line(const HeldLine& line) {
-  const Eigen::Vector3d middle = line.points[line.points.size() / 2].position.cast<double>();
-  return {line.serial, line.time, (middle - line.seen_from).normalized(), line.points};
-}
-
 StudyErrors errors_of(const SpotReport& report, const std::vector<Spot>& spots,
                       const NormalEstimator& estimator, NormalMethod method) {
   StudyErrors errors;
@@ -64,12 +59,8 @@ StudyErrors errors_of(const SpotReport& report, const std::vector<Spot>& spots,
 /// The surface the viewer draws, asked for the normal of its triangle nearest to the tip.
 class MeshNormals {
  public:
-  explicit MeshNormals(const HeldLines& lines) {
-    const auto mesher = std::move(*make_mesher({}));
-    for (const auto& line : lines)
-      mesher->add_line(
-          {.points = line->points, .seen_from = line->seen_from, .time = line->time, .id = line->serial});
-    mesher->write_mesh(mesh_);
+  explicit MeshNormals(const HeldLines& lines)
+      : mesh_(evaluate::surface_of(lines, evaluate::kBetterMesh).mesh) {
     locator_.assign(mesh_);
   }
 
@@ -117,9 +108,7 @@ Result<void> run_one(const twin::TwinOptions& options, Nanoseconds mean_over,
   NormalEstimatorOptions stated = estimator_options;
   stated.robust.unseen =
       Unseen::of_field(options.tracker.field_position_mm, options.tracker.field_rotation_rad);
-  NormalEstimator estimator(stated);
-  for (const auto& line : scan->lines)
-    if (!line->points.empty()) estimator.add_line(navigation_line(*line));
+  const NormalEstimator estimator = evaluate::estimator_of(scan->lines, stated);
   for (const NormalMethod method : {NormalMethod::robust, NormalMethod::algorithm_1}) {
     const SpotReport report = run_spots(estimator, spots, method);
     (method == NormalMethod::robust ? row.robust : row.algorithm_1)

@@ -22,8 +22,8 @@ namespace linescope::study {
 
 /// One row of the table.
 struct StudyCondition {
-  std::string name;                                        ///< for people
-  twin::TwinOptions twin;                                  ///< seed, start and duration are set by the study
+  std::string name;                           ///< for people
+  twin::TwinOptions twin;                     ///< seed, start and duration are set by the study
   Nanoseconds mean_over = 25 * kMillisecond;  ///< of a picture's pose; 0: interpolated only
 };
 
