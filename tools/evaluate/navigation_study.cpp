@@ -101,14 +101,13 @@ Result<NavigationOutcome> navigation_experiment(const Form& form, std::uint64_t 
   if (!spots) return tl::unexpected(spots.error());
   // The scan is a little older than the spots; its age is not what is asked for here.
   for (Spot& spot : *spots) spot.query.now = nanoseconds_from_seconds(form.scan_seconds);
-  return both_columns(
-      scan_options(form, seed),
-      [&](const VirtualSession& session, const SessionOptions& algorithms,
-          MeshMethod column) -> Result<SpotReport> {
-        auto scan = session.acquire(algorithms);
-        if (!scan) return tl::unexpected(scan.error());
-        return run_spots(estimator_of(scan->lines), *spots, normal_of(column));
-      });
+  return both_columns(scan_options(form, seed),
+                      [&](const VirtualSession& session, const SessionOptions& algorithms,
+                          MeshMethod column) -> Result<SpotReport> {
+                        auto scan = session.acquire(algorithms);
+                        if (!scan) return tl::unexpected(scan.error());
+                        return run_spots(estimator_of(scan->lines), *spots, normal_of(column));
+                      });
 }
 
 }  // namespace linescope::evaluate

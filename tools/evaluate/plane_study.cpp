@@ -89,10 +89,9 @@ Result<SeedValues> one_seed(const PlaneStudy& study, const Form& form, std::uint
   for (const PlaneGap& gap : study.gaps) {
     twin::TwinOptions options = sweeping(study.instrument(seed), gap.gap_mm, form.scan_seconds);
     options.phantom = phantom("plane");
-    auto pair = both_columns(
-        options, [&](const VirtualSession& session, const SessionOptions& algorithms, MeshMethod) {
-          return measured(session, algorithms, form.scan_seconds);
-        });
+    auto pair =
+        both_columns(options, [&](const VirtualSession& session, const SessionOptions& algorithms,
+                                  MeshMethod) { return measured(session, algorithms, form.scan_seconds); });
     if (!pair) return tl::unexpected(pair.error());
     gaps.push_back(*pair);
   }

@@ -51,11 +51,12 @@ struct Columns {
   T plain, better;
 };
 
-/// Renders once and asks measure(session, algorithms, mesher) -> Result<T> for each column, with that column's
-/// mesher.
+/// Renders once and asks measure(session, algorithms, mesher) -> Result<T> for each column, with that
+/// column's mesher.
 template <class Measure>
 auto both_columns(const twin::TwinOptions& options, Measure&& measure) {
-  using T = typename std::invoke_result_t<Measure, const VirtualSession&, SessionOptions, MeshMethod>::value_type;
+  using T =
+      typename std::invoke_result_t<Measure, const VirtualSession&, SessionOptions, MeshMethod>::value_type;
   using Answer = Result<Columns<T>>;
   auto session = VirtualSession::render(options);
   if (!session) return Answer(tl::unexpected(session.error()));
