@@ -187,10 +187,21 @@ void declare_reconstruct(ConfigSchema& schema, AcquireOptions& options) {
 void declare_twin(ConfigSchema& schema, TwinChoice& twin) {
   schema.section("twin", "The simulated instrument; used where a source is \"twin\".");
   schema.integer("twin.seed", twin.seed, {.min = 0}, "Same seed, same bytes.");
-  schema.text("twin.phantom", twin.phantom, "condyle, plane, cylinder-DIAMETER or mini-knee.");
+  schema.text("twin.phantom", twin.phantom,
+              "condyle, plane, cylinder-DIAMETER, mini-knee, or a mesh (OFF file, in mm).");
   schema.choice("twin.scenario", twin.scenario, {"demo", "sweeps", "spots", "still"},
                 "What the operator's hand does.");
   schema.choice("twin.noise", twin.noise, {"ideal", "manufacturer", "thesis"}, "How camera and tracker err.");
+  schema.choice("twin.instrument", twin.instrument, {"camera-i", "camera-ii", "camera-ii-320", "near"},
+                "Endoscope and prism: the thesis's, or one for gaps of 5 to 8 mm.");
+  schema.choice(
+      "twin.optics", twin.optics, {"preset", "ideal", "clean", "full", "trouble"},
+      "What light goes through: as twin.noise says; nothing that disturbs; sensor, speckle and LED; also "
+      "the bent sheet and the port; also everything that goes wrong in a knee.");
+  schema.number("twin.gap_mm", twin.gap_mm, {.unit = "mm", .min = 2, .max = 100},
+                "Mean distance from the camera to the surface.");
+  schema.number("twin.gap_variation_mm", twin.gap_variation_mm, {.unit = "mm", .min = 0, .max = 50},
+                "How far the hand departs from it, slowly, to both sides.");
   schema.number("twin.duration_s", twin.duration_s, {.unit = "s", .min = 0, .max = 1e6},
                 "End of the experiment; 0: never.");
   schema.path("twin.truth", twin.truth, "File to which the truth is written (JSON); empty: nowhere.");

@@ -80,8 +80,12 @@ struct TwinChoice {
   std::string phantom = "condyle";
   std::string scenario = "demo";
   std::string noise = "manufacturer";
-  double duration_s = 0;        ///< 0: for ever
-  std::filesystem::path truth;  ///< where to write what really is (JSON), for tests and evaluation
+  std::string instrument = "camera-ii";
+  std::string optics = "preset";  ///< "preset": as `noise` says
+  double gap_mm = 15;             ///< mean distance camera - surface
+  double gap_variation_mm = 3;    ///< to both sides of it
+  double duration_s = 0;          ///< 0: for ever
+  std::filesystem::path truth;    ///< where to write what really is (JSON), for tests and evaluation
 };
 
 struct AcquireOptions {

@@ -59,7 +59,17 @@ Result<twin::TwinOptions> twin_options(const TwinChoice& choice, Nanoseconds sta
   auto scenario = twin::scenario_from_name(choice.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
   o.hand.scenario = *scenario;
+  auto instrument = twin::instrument_from_name(choice.instrument);
+  if (!instrument) return tl::unexpected(instrument.error());
+  o.instrument = *instrument;
   if (auto noise = twin::apply_noise_preset(o, choice.noise); !noise) return tl::unexpected(noise.error());
+  if (choice.optics != "preset") {
+    auto optics = twin::optics_from_name(choice.optics);
+    if (!optics) return tl::unexpected(optics.error());
+    o.optics = *optics;
+  }
+  o.hand.gap_mm = choice.gap_mm;
+  o.hand.gap_variation_mm = choice.gap_variation_mm;
   return o;
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/units.hpp"
+
 namespace linescope::twin {
 namespace {
 
@@ -45,9 +47,14 @@ Result<InstrumentOptions> instrument_from_name(std::string_view name) {
     options.lens = camera_ii(320, 240);
   } else if (name == "camera-i") {
     options.lens = camera_i();
+  } else if (name == "near") {
+    options.lens = camera_ii(360, 240);
+    options.baseline_mm = 3.5;
+    options.alpha_rad = radians_from_degrees(20);
   } else {
-    return fail(ErrorCode::usage,
-                fmt::format("no instrument is called '{}': use camera-i, camera-ii or camera-ii-320", name));
+    return fail(
+        ErrorCode::usage,
+        fmt::format("no instrument is called '{}': use camera-i, camera-ii, camera-ii-320 or near", name));
   }
   return options;
 }

@@ -36,9 +36,7 @@ StudyCondition as_the_thesis_places_lines() {
 }
 
 void look_from_near(twin::TwinOptions& o) {
-  // The thesis's own geometry has the line out of the picture below 8 mm: a shorter baseline, steeper light.
-  o.instrument.baseline_mm = 3.5;
-  o.instrument.alpha_rad = radians_from_degrees(20);
+  o.instrument = *twin::instrument_from_name("near");  // the thesis's loses the line below 8 mm
   o.hand.gap_mm = 6.5;
   o.hand.gap_variation_mm = 1.2;
 }

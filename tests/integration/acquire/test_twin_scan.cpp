@@ -33,9 +33,11 @@ Deviation deviation(const LineBatch& scan, const twin::TwinOptions& options) {
   return d;
 }
 
-LineBatch scan_with(const std::string& noise) {
-  DaemonUnderTest daemon(
-      {"--set", "twin.scenario=sweeps", "--set", "twin.noise=" + noise, "--seed", "3", "--scan", "--fast"});
+LineBatch scan_with(const std::string& noise, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{
+      "--set", "twin.scenario=sweeps", "--set", "twin.noise=" + noise, "--seed", "3", "--scan", "--fast"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  DaemonUnderTest daemon(arguments);
   auto reader = daemon.attach();
   EXPECT_TRUE(reader) << daemon.process().standard_error();
   if (!reader) return {};
@@ -67,6 +69,38 @@ TEST(TwinScan, WithTheManufacturersTrackerTheErrorIsWhatTheTrackerAllows) {
   // be a leak of truth.
   EXPECT_LT(d.rms, 1.6);
   EXPECT_GT(d.rms, 0.02);
+}
+
+// The gaps the thesis wishes for in its outlook.
+TEST(TwinScan, TheNearInstrumentMeasuresAtGapsOfFiveToEightMillimetres) {
+  twin::TwinOptions options = options_with("ideal");
+  options.instrument = *twin::instrument_from_name("near");
+  ASSERT_TRUE(twin::apply_noise_preset(options, "ideal"));
+  options.hand.gap_mm = 6.5;
+  options.hand.gap_variation_mm = 1.2;
+  const Deviation d = deviation(scan_with("ideal", {"--set", "twin.instrument=near", "--set",
+                                                    "twin.gap_mm=6.5", "--set", "twin.gap_variation_mm=1.2"}),
+                                options);
+  std::printf("near instrument: %zu points, rms %.4f mm\n", d.points, d.rms);
+  EXPECT_GT(d.points, 5'000u);
+  EXPECT_LT(d.rms, 0.02);
+}
+
+TEST(TwinScan, EveryOpticsOfTheTwinCanBeChosenFromOutside) {
+  const Deviation clean =
+      deviation(scan_with("ideal", {"--set", "twin.optics=clean"}), options_with("ideal"));
+  const Deviation full = deviation(scan_with("ideal", {"--set", "twin.optics=full"}), options_with("ideal"));
+  std::printf("optics: clean rms %.4f mm, full rms %.4f mm\n", clean.rms, full.rms);
+  EXPECT_LT(clean.rms, 0.1);
+  EXPECT_GT(full.rms, 2 * clean.rms);  // the bent sheet, taken for a plane
+}
+
+TEST(TwinScan, AGapAtWhichTheLineIsOutOfThePictureIsRefusedWithASentence) {
+  const Outcome outcome =
+      run_daemon_to_end({"--check", "--set", "twin.gap_mm=6", "--set", "twin.gap_variation_mm=1"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.said.find("at a gap of 6 mm the laser line is out of the picture"), std::string::npos)
+      << outcome.said;
 }
 
 }  // namespace
