@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/camera_model.hpp"
 #include "common/result.hpp"
-#include "common/rigid_transform.hpp"
 
 namespace linescope::calibrate {
 
@@ -61,16 +59,6 @@ class BoardFinder {
   BoardView find_charuco(const cv::Mat& grey, BoardMiss& why) const;
 
   BoardOptions options_;
-  cv::Mat marker_bits_;
-  int marker_size_ = 0;
 };
-
-/// Where the board lies before the camera: OpenCV's planar solver, refined to the least squares of the
-/// pixels. Fails with `invalid` when the corners do not fix a pose.
-struct BoardPose {
-  Rigid<CameraCv, Board> camera_from_board;
-  double rms_px = 0;
-};
-Result<BoardPose> board_pose(const BoardOptions& options, const CameraModel& camera, const BoardView& view);
 
 }  // namespace linescope::calibrate

@@ -57,6 +57,7 @@ struct Session {
   int height = 0;                         ///< px
   std::vector<Observation> observations;  ///< in time order: those in which something was found
   std::vector<LeftOut> left_out;          ///< pictures in which nothing was found, or that cannot be read
+  std::size_t mirrored = 0;               ///< of them: a board with markers, seen in a mirror
   std::size_t offered = 0;                ///< pictures looked at
   std::array<std::vector<PoseSample>, kMaxStations> poses;  ///< per station in time order
   Stations stations;
