@@ -19,19 +19,14 @@ cv::Mat grey_of(const cv::Mat& picture) {
   return grey;
 }
 
-/// The sector-based detector first: it stands blur and glare. Where it sees nothing, the older one, with its
-/// corners brought to a fraction of a pixel.
+/// As it is, then with its contrast evened out: under a laser line or a light source the board is often
+/// darkly and unevenly lit.
 bool chessboard_corners(const cv::Mat& grey, cv::Size size, std::vector<cv::Point2f>& corners) {
-  if (cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY))
-    return true;
-  if (!cv::findChessboardCorners(
-          grey, size, corners,
-          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
-    return false;
-  const int reach = 5;
-  cv::cornerSubPix(grey, corners, {reach, reach}, {-1, -1},
-                   {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 0.001});
-  return true;
+  const int flags = cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
+  if (cv::findChessboardCornersSB(grey, size, corners, flags)) return true;
+  cv::Mat even;
+  cv::createCLAHE(4, {4, 4})->apply(grey, even);
+  return cv::findChessboardCornersSB(even, size, corners, flags);
 }
 
 double cross(cv::Point2f a, cv::Point2f b) {

@@ -15,15 +15,17 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr int kFolds = 5;
+constexpr std::size_t kMostFolds = 12;
 constexpr double kAlwaysGood = 0.25;  ///< px: a picture this good is no outlier, however good the others are
+
+using Values = std::array<double, 9>;  ///< fx fy cx cy k1 k2 p1 p2 k3
 
 /// What OpenCV gives back for one set of pictures.
 struct Solved {
   CameraModel camera;
   double rms = 0;
-  std::array<double, 9> deviations{};  ///< fx fy cx cy k1 k2 p1 p2 k3
-  std::vector<double> per_view;        ///< RMS, px
+  Values deviations{};
+  std::vector<double> per_view;  ///< RMS, px
   std::vector<Rigid<CameraCv, Board>> poses;
 };
 
@@ -39,8 +41,10 @@ class CameraFitter {
   Result<void> choose_pictures();
   Result<Solved> solve_without_outliers();
   Result<void> check_variation(const Solved& solved) const;
-  std::pair<double, std::size_t> held_out() const;
+  void leave_out(const Solved& all);
   void describe(const Solved& solved);
+  void add_held_out(const Solved& others, std::size_t fold, std::size_t folds, double& sum,
+                    std::size_t& points);
   void judge();
 
   const Session& session_;
@@ -58,6 +62,25 @@ CameraModel camera_from(const cv::Mat& k, const cv::Mat& d, int width, int heigh
       width, height, k.at<double>(0, 0), k.at<double>(1, 1), 0, k.at<double>(0, 2), k.at<double>(1, 2), {}};
   for (int i = 0; i < 5; ++i) camera.distortion[static_cast<std::size_t>(i)] = d.at<double>(i);
   return camera;
+}
+
+Values values_of(const CameraModel& c) {
+  return {
+      c.fx,           c.fy, c.cx, c.cy, c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3],
+      c.distortion[4]};
+}
+
+/// Of an estimate, from the estimates that each lack one group of the data.
+Values jackknife_deviations(const std::vector<Values>& without_one) {
+  const auto count = static_cast<double>(without_one.size());
+  Values deviations{};
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    double mean = 0, squares = 0;
+    for (const Values& v : without_one) mean += v[k] / count;
+    for (const Values& v : without_one) squares += (v[k] - mean) * (v[k] - mean);
+    deviations[k] = count > 1 ? std::sqrt((count - 1) / count * squares) : 0;
+  }
+  return deviations;
 }
 
 double median(std::vector<double> values) {
@@ -95,7 +118,7 @@ Result<Solved> CameraFitter::solve(const Indices& pictures) const {
     solved.rms =
         cv::calibrateCamera(objects, images, {session_.width, session_.height}, k, d, rotations, translations,
                             deviations, ignored, per_view, flags_for(options_.coefficients),
-                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-12});
+                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 60, 1e-10});
   } catch (const cv::Exception&) {
     return tl::unexpected(refusal(Refusal::too_little_variation, "the pictures fix no focal length",
                                   "Tilt the board by 20 to 40 degrees, to all sides"));
@@ -177,28 +200,43 @@ Result<void> CameraFitter::check_variation(const Solved& solved) const {
 
 /// The camera from the pictures of the other folds, the pose from half of the picture's corners, the error on
 /// its other half: corners that were in no fit at all.
-std::pair<double, std::size_t> CameraFitter::held_out() const {
+void CameraFitter::add_held_out(const Solved& others, std::size_t fold, std::size_t folds, double& sum,
+                                std::size_t& points) {
+  for (std::size_t i = fold; i < fit_.used.size(); i += folds) {
+    const BoardView& view = session_.observations[fit_.used[i]].board;
+    const auto pose = board_pose(board_, others.camera, every_other(board_, view, true));
+    if (!pose) continue;
+    const auto errors =
+        corner_errors(board_, others.camera, every_other(board_, view, false), pose->camera_from_board);
+    for (const auto& e : errors) sum += e.squaredNorm();
+    points += errors.size();
+    ++fit_.quality.held_out_count;
+  }
+}
+
+/// The folds give the held-out error and, by how much the parameters move from fold to fold (jackknife), the
+/// scatter between pictures: board not flat, motion blur. OpenCV's own deviations know independent corner
+/// noise only. The larger one is stated.
+void CameraFitter::leave_out(const Solved& all) {
+  const std::size_t folds = std::min(kMostFolds, fit_.used.size());
   double sum = 0;
-  std::size_t points = 0, pictures = 0;
-  const std::size_t folds = std::min<std::size_t>(kFolds, fit_.used.size());
+  std::size_t points = 0;
+  std::vector<Values> moved;
   for (std::size_t fold = 0; fold < folds; ++fold) {
     Indices others;
     for (std::size_t i = 0; i < fit_.used.size(); ++i)
       if (i % folds != fold) others.push_back(fit_.used[i]);
     const auto solved = solve(others);
     if (!solved) continue;
-    for (std::size_t i = fold; i < fit_.used.size(); i += folds) {
-      const BoardView& view = session_.observations[fit_.used[i]].board;
-      const auto pose = board_pose(board_, solved->camera, every_other(board_, view, true));
-      if (!pose) continue;
-      const auto errors =
-          corner_errors(board_, solved->camera, every_other(board_, view, false), pose->camera_from_board);
-      for (const auto& e : errors) sum += e.squaredNorm();
-      points += errors.size();
-      ++pictures;
-    }
+    moved.push_back(values_of(solved->camera));
+    add_held_out(*solved, fold, folds, sum, points);
   }
-  return {points == 0 ? kUnknown : std::sqrt(sum / static_cast<double>(points)), pictures};
+  fit_.quality.held_out = points == 0 ? kUnknown : std::sqrt(sum / static_cast<double>(points));
+  const Values jackknife = jackknife_deviations(moved), values = values_of(all.camera);
+  static constexpr std::array<const char*, 9> kNames{"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
+  for (std::size_t i = 0; i < (options_.coefficients == 4 ? 8U : 9U); ++i)
+    fit_.quality.parameters.push_back(
+        {kNames[i], values[i], std::max(all.deviations[i], jackknife[i]), i < 4 ? "px" : ""});
 }
 
 void CameraFitter::describe(const Solved& solved) {
@@ -211,18 +249,11 @@ void CameraFitter::describe(const Solved& solved) {
     const Observation& seen = session_.observations[fit_.used[i]];
     q.items.push_back({seen.name, solved.per_view[i], true, seen.board.ids.size()});
   }
-  const CameraModel& c = solved.camera;
-  const std::array<double, 9> values{
-      c.fx,           c.fy, c.cx, c.cy, c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3],
-      c.distortion[4]};
-  static constexpr std::array<const char*, 9> kNames{"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
-  for (std::size_t i = 0; i < (options_.coefficients == 4 ? 8U : 9U); ++i)
-    q.parameters.push_back({kNames[i], values[i], solved.deviations[i], i < 4 ? "px" : ""});
   const Coverage coverage = coverage_of(session_);
   q.spread.push_back(
       {"board directions", degrees_from_radians(largest_angle_between(solved.poses)), kUnknown, "deg"});
   q.spread.push_back({"picture covered", 100 * coverage.cells, kUnknown, "%"});
-  std::tie(q.held_out, q.held_out_count) = held_out();
+  leave_out(solved);
 }
 
 void CameraFitter::judge() {
