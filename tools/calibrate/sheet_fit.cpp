@@ -1,0 +1,147 @@
+#include "tools/calibrate/sheet_fit.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace linescope::calibrate {
+namespace {
+
+using Row = Eigen::Matrix<double, 6, 1>;
+
+Row row_of(const LaserPoint& p) {
+  Row row;
+  row << p.x, p.y, 1, p.x * p.x, p.x * p.y, p.y * p.y;
+  return row;
+}
+
+/// Change of the misfit in 1/z for one pixel along the profile: the surface's 1/z changes and the board's
+/// does.
+double per_pixel(const Sheet& sheet, const LaserPoint& p) {
+  const double dx = sheet.c(0) + 2 * sheet.c(3) * p.x + sheet.c(4) * p.y;
+  const double dy = sheet.c(1) + 2 * sheet.c(5) * p.y + sheet.c(4) * p.x;
+  return dx * p.step.x() + dy * p.step.y() - p.inverse_step;
+}
+
+std::vector<const LaserPoint*> all_points(const std::vector<const LaserPicture*>& pictures) {
+  std::vector<const LaserPoint*> points;
+  for (const LaserPicture* picture : pictures)
+    for (const LaserPoint& p : picture->points) points.push_back(&p);
+  return points;
+}
+
+std::optional<Sheet> plane_through(const LaserPoint& a, const LaserPoint& b, const LaserPoint& c) {
+  Eigen::Matrix3d rays;
+  rays << a.x, a.y, 1, b.x, b.y, 1, c.x, c.y, 1;
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(rays);
+  if (!lu.isInvertible()) return std::nullopt;
+  Sheet sheet;
+  sheet.c.head<3>() = lu.solve(Eigen::Vector3d(a.inverse_depth, b.inverse_depth, c.inverse_depth));
+  return sheet;
+}
+
+/// The plane with the most points close to it. Two points of one picture and one of another: the lines of two
+/// pictures fix a plane, three points of one picture fix none. A fixed seed: same pictures, same result.
+std::optional<Sheet> start_plane(const std::vector<const LaserPicture*>& pictures, const SheetFitOptions& o) {
+  const auto points = all_points(pictures);
+  std::mt19937 dice(20260101);
+  const auto pick = [&](const LaserPicture& picture) -> const LaserPoint& {
+    return picture.points[dice() % picture.points.size()];
+  };
+  std::optional<Sheet> best;
+  double best_score = -1;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 2000);
+  for (int trial = 0; trial < o.trials; ++trial) {
+    const LaserPicture& one = *pictures[dice() % pictures.size()];
+    const LaserPicture& other = *pictures[dice() % pictures.size()];
+    if (&one == &other) continue;
+    const auto sheet = plane_through(pick(one), pick(one), pick(other));
+    if (!sheet) continue;
+    double score = 0;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      const double r = sheet->pixels(*points[i]) / (2 * o.inlier_px);
+      if (std::abs(r) < 1) score += (1 - r * r) * (1 - r * r);
+    }
+    if (score > best_score) best_score = score, best = sheet;
+  }
+  return best;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Tukey's weights: nothing beyond the limit.
+Eigen::VectorXd weights_for(const Sheet& sheet, const std::vector<const LaserPoint*>& points, double least) {
+  std::vector<double> misfits(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) misfits[i] = std::abs(sheet.pixels(*points[i]));
+  const double limit = std::max(least, 4.685 * 1.4826 * median_of(misfits));
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double r = misfits[i] / limit;
+    weights(static_cast<Eigen::Index>(i)) = r < 1 ? (1 - r * r) * (1 - r * r) : 0;
+  }
+  return weights;
+}
+
+/// Least squares in pixels with the given weights; false: the points fix no surface.
+bool improve(Sheet& sheet, const std::vector<const LaserPoint*>& points, const Eigen::VectorXd& weights,
+             int coefficients) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(coefficients, coefficients);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(coefficients);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double slope = per_pixel(sheet, *points[i]);
+    const double w = weights(static_cast<Eigen::Index>(i)) / std::max(slope * slope, 1e-18);
+    const Eigen::VectorXd row = row_of(*points[i]).head(coefficients);
+    normal.noalias() += w * row * row.transpose();
+    right.noalias() += w * points[i]->inverse_depth * row;
+  }
+  const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scale.asDiagonal() * normal * scale.asDiagonal());
+  if (lu.rcond() < 1e-14) return false;
+  sheet.c.setZero();
+  sheet.c.head(coefficients) = scale.asDiagonal() * lu.solve(scale.asDiagonal() * right);
+  return sheet.c.allFinite();
+}
+
+}  // namespace
+
+double Sheet::distance(const LaserPoint& p) const {
+  const double q = inverse_depth(p.x, p.y);
+  const double qx = c(0) + 2 * c(3) * p.x + c(4) * p.y, qy = c(1) + 2 * c(5) * p.y + c(4) * p.x;
+  const Eigen::Vector3d gradient(qx, qy, q - p.x * qx - p.y * qy);
+  return (q / p.inverse_depth - 1) / gradient.norm();
+}
+
+double Sheet::pixels(const LaserPoint& p) const {
+  const double slope = per_pixel(*this, p);
+  return (inverse_depth(p.x, p.y) - p.inverse_depth) / (std::abs(slope) < 1e-9 ? 1e-9 : slope);
+}
+
+std::optional<Sheet> fit_sheet(const std::vector<const LaserPicture*>& pictures, SheetForm form,
+                               const SheetFitOptions& options, std::vector<std::vector<bool>>* inliers) {
+  auto sheet = start_plane(pictures, options);
+  if (!sheet) return std::nullopt;
+  const auto points = all_points(pictures);
+  Eigen::VectorXd weights;
+  for (int round = 0; round < 15; ++round) {
+    weights = weights_for(*sheet, points, options.inlier_px);
+    // The first rounds as a plane: the bent form must not begin by bending towards outliers.
+    if (!improve(*sheet, points, weights, round < 4 ? 3 : static_cast<int>(form))) return std::nullopt;
+  }
+  if (!inliers) return sheet;
+  inliers->clear();
+  Eigen::Index i = 0;
+  for (const LaserPicture* picture : pictures) {
+    auto& flags = inliers->emplace_back();
+    for (std::size_t k = 0; k < picture->points.size(); ++k) flags.push_back(weights(i++) > 0);
+  }
+  return sheet;
+}
+
+}  // namespace linescope::calibrate
