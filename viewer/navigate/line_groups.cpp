@@ -25,6 +25,13 @@ FitRow features_of(const Placed& p) {
   return row;
 }
 
+/// A segment that counts.
+struct Used {
+  Placed place;
+  double weight;
+  std::uint16_t line;
+};
+
 Placed placed(const Patch& patch, const Quadric& quadric, std::size_t i) {
   Placed p;
   p.at = {static_cast<double>(patch.x[i]), static_cast<double>(patch.y[i])};
@@ -49,7 +56,7 @@ FitRow row_of(const Placed& p, const Quadric& quadric, const Eigen::Vector2d& an
 /// Weighted sums of one line.
 struct LineSums {
   double weight;
-  Eigen::Vector2d anchor;  ///< weighted mean of the places, once divided by the weight
+  Eigen::Vector2d anchor;  ///< weighted sum of the places; divided by the weight, their mean
   double along;
   double along_squared;
   FitRow rows;
@@ -77,7 +84,8 @@ struct LineSums {
   double spread() const { return along_squared - along * along / weight; }
 };
 
-/// Rows collected and summed many at a time.
+/// Rows collected and summed many at a time; without the first three features, of which a straight line less
+/// its offset and its slope has none.
 class RowBatch {
  public:
   explicit RowBatch(RowSums& sums) : sums_(sums) {}
@@ -87,7 +95,7 @@ class RowBatch {
     if (++size_ == rows_.size()) flush();
   }
   void flush() {
-    add_rows(rows_.data(), weights_.data(), size_, sums_);
+    add_curved_rows(rows_.data(), weights_.data(), size_, sums_);
     size_ = 0;
   }
 
@@ -136,24 +144,21 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
   RowBatch batch(within);
   std::array<LineSums, Patch::kMostLines> sums;
   for (std::size_t l = 0; l < line_count; ++l) sums[l].clear();
-  std::array<Placed, Patch::kMostSegments> segments;
-  const auto weight = [&](std::size_t i) {
-    return patch.weight[i] > 0 ? 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor)
-                               : 0.0;
-  };
+  std::array<Used, Patch::kMostSegments> segments;
+  std::size_t used = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
-    if (!(weight(i) > 0)) continue;
-    segments[i] = placed(patch, quadric, i);
-    sums[patch.line[i]].anchor_at(segments[i].at, weight(i));
+    if (!(patch.weight[i] > 0)) continue;
+    const double weight = 1 / (static_cast<double>(patch.variance[i]) + segment_floor * segment_floor);
+    segments[used] = {placed(patch, quadric, i), weight, patch.line[i]};
+    sums[patch.line[i]].anchor_at(segments[used++].place.at, weight);
   }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(patch.size); ++i) {
-    const double w = weight(i);
-    if (!(w > 0)) continue;
-    LineSums& sum = sums[patch.line[i]];
-    const Eigen::Vector2d& direction = directions[patch.line[i]];
-    const FitRow row = row_of(segments[i], quadric, sum.anchor / sum.weight, direction);
-    batch.add(row, w);
-    sum.add(row, w, direction.dot(row.segment<2>(1)));
+  for (std::size_t l = 0; l < line_count; ++l) sums[l].anchor /= sums[l].weight;
+  for (const Used& segment : std::span(segments).first(used)) {
+    LineSums& sum = sums[segment.line];
+    const Eigen::Vector2d& direction = directions[segment.line];
+    const FitRow row = row_of(segment.place, quadric, sum.anchor, direction);
+    batch.add(row, segment.weight);
+    sum.add(row, segment.weight, direction.dot(row.segment<2>(1)));
   }
   for (const std::uint16_t l : by_time) {
     const LineSums& sum = sums[l];
@@ -173,9 +178,6 @@ LineGroups::LineGroups(const Patch& patch, const Quadric& quadric, double segmen
     within_freedom -= 1;
   }
   batch.flush();
-  // Nothing but rounding: a straight line less its offset and its slope has no place and no slope of its own.
-  within.topRows<3>().setZero();
-  within.leftCols<3>().setZero();
 }
 
 void LineGroups::scale_to(const Eigen::Matrix<double, 10, 1>& surface) {

@@ -32,17 +32,34 @@ __attribute__((target("avx2,fma"))) void add_rows_avx2(const FitRow* rows, const
   add_block<2, 0, 11>(rows, weights, count, sums);
 }
 
+/// Column 3 of rows 0 to 2 lies above the diagonal, where anything may stand.
+__attribute__((target("avx2,fma"))) void add_curved_rows_avx2(const FitRow* rows, const double* weights,
+                                                              std::size_t count, RowSums& sums) {
+  add_block<0, 3, 4>(rows, weights, count, sums);
+  add_block<1, 3, 8>(rows, weights, count, sums);
+  add_block<2, 3, 11>(rows, weights, count, sums);
+}
+
 bool has_avx2() {
   static const bool yes = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return yes;
 }
 #endif
 
+void add_from(int first, const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (int c = first; c < 11; ++c)
+      sums.col(c).tail(12 - c) += (weights[i] * rows[i][c]) * rows[i].tail(12 - c);
+}
+
 }  // namespace
 
 void add_rows_portable(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
-  for (std::size_t i = 0; i < count; ++i)
-    for (int c = 0; c < 11; ++c) sums.col(c).tail(12 - c) += (weights[i] * rows[i][c]) * rows[i].tail(12 - c);
+  add_from(0, rows, weights, count, sums);
+}
+
+void add_curved_rows_portable(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
+  add_from(3, rows, weights, count, sums);
 }
 
 void add_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
@@ -50,6 +67,13 @@ void add_rows(const FitRow* rows, const double* weights, std::size_t count, RowS
   if (has_avx2()) return add_rows_avx2(rows, weights, count, sums);
 #endif
   add_rows_portable(rows, weights, count, sums);
+}
+
+void add_curved_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
+#ifdef LINESCOPE_ROW_SUMS_AVX2
+  if (has_avx2()) return add_curved_rows_avx2(rows, weights, count, sums);
+#endif
+  add_curved_rows_portable(rows, weights, count, sums);
 }
 
 double squares_about(const RowSums& sums, const Eigen::Matrix<double, 10, 1>& surface) {

@@ -20,6 +20,11 @@ using RowSums = Eigen::Matrix<double, 12, 12>;
 void add_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums);
 void add_rows_portable(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums);
 
+/// The same from the fourth feature on: for rows whose place and slope have been taken out, so that the first
+/// three rows and columns would hold nothing but rounding. They are left as they are.
+void add_curved_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums);
+void add_curved_rows_portable(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums);
+
 /// r^T sums r for r = (-surface, 1, 0): the weighted sum of squared residuals.
 double squares_about(const RowSums& sums, const Eigen::Matrix<double, 10, 1>& surface);
 

@@ -101,15 +101,20 @@ TEST(RowSums, FastAndPortableWaysAgree) {
   for (auto& row : rows)
     for (int k = 0; k < 12; ++k) row[k] = k == 11 ? 0 : normal(random);
   for (double& w : weights) w = std::abs(normal(random));
-  RowSums fast = RowSums::Zero(), portable = RowSums::Zero();
+  RowSums fast = RowSums::Zero(), portable = RowSums::Zero(), curved = RowSums::Zero(),
+          curved_portable = RowSums::Zero();
   add_rows(rows.data(), weights.data(), rows.size(), fast);
   add_rows_portable(rows.data(), weights.data(), rows.size(), portable);
+  add_curved_rows(rows.data(), weights.data(), rows.size(), curved);
+  add_curved_rows_portable(rows.data(), weights.data(), rows.size(), curved_portable);
   for (int r = 0; r < 11; ++r)
     for (int c = 0; c <= r; ++c) {
       double direct = 0;
       for (std::size_t i = 0; i < rows.size(); ++i) direct += weights[i] * rows[i][r] * rows[i][c];
       EXPECT_NEAR(portable(r, c), direct, 1e-11);
       EXPECT_NEAR(fast(r, c), direct, 1e-11);
+      EXPECT_NEAR(curved(r, c), c < 3 ? 0 : direct, 1e-11);
+      EXPECT_NEAR(curved_portable(r, c), c < 3 ? 0 : direct, 1e-11);
     }
 }
 
