@@ -242,7 +242,7 @@ void LaserFitter::judge(double worst_sd) {
     refuse(fmt::format("the surface is uncertain by {:.3f} mm within the depths seen, {:g} mm are allowed",
                        worst_sd, options_.max_plane_sd_mm),
            "Take more pictures at more distances");
-  const double design = options_.design_baseline_mm, found = q.parameters.front().value;
+  const double design = options_.design_baseline_mm, found = std::abs(q.parameters.front().value);
   if (design > 0 && std::abs(found / design - 1) > options_.max_scale_error)
     refuse(fmt::format(
                "b is {:.2f} mm and was built as {:.2f} mm: the board's squares probably measure {:.2f} mm "

@@ -18,7 +18,7 @@ enum class LaserModel {
 struct LaserFitOptions {
   LaserModel model = LaserModel::automatic;
   int min_pictures = 6;
-  double min_depth_span = 0.15;   ///< farthest less nearest picture over the middle depth
+  double min_depth_span = 0.1;    ///< farthest less nearest picture over the middle depth
   double max_residual_mm = 0.25;  ///< RMS distance of the points
   double max_held_out_mm = 0.35;  ///< the same on pictures that were in no fit
   double max_plane_sd_mm = 0.25;  ///< uncertainty of the surface within the depths seen, at its worst place

@@ -1,0 +1,169 @@
+#include "tools/calibrate/check_step.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "acquire/reconstruct/line_reconstructor.hpp"
+
+namespace linescope::calibrate {
+namespace {
+
+/// Where the scan is held: the object's sensor at that instant, or the world.
+PoseAnswer holder_at(const Session& session, Nanoseconds time, Nanoseconds latency) {
+  if (session.stations.object >= 0 &&
+      !session.poses.at(static_cast<std::size_t>(session.stations.object)).empty())
+    return session.pose_at(session.stations.object, time, latency);
+  PoseAnswer world;
+  world.miss = PoseMiss::none;
+  return world;
+}
+
+ScanLine in_holder(const ReconstructedLine& line, const PoseAnswer& holder) {
+  const auto holder_from_world = holder.world_from_sensor.inverse();
+  ScanLine points;
+  for (const SurfacePoint& p : line.points) {
+    const Eigen::Vector3d world(p.position.x(), p.position.y(), p.position.z());
+    points.push_back(holder_from_world * world);
+  }
+  return points;
+}
+
+void add_shape(Outcome& outcome, const ShapeCheck& check) {
+  Quality& q = outcome.quality;
+  q.used = check.lines;
+  q.unit = "mm";
+  q.residual = check.residual_mm;
+  q.held_out = check.target_error_mm;
+  q.held_out_count = check.held_out_points;
+  q.parameters = {{"bias", check.bias_mm, kUnknown, "mm"},
+                  {"precision", check.precision_mm, kUnknown, "mm"},
+                  {"repeatability", check.repeatability_mm, kUnknown, "mm"},
+                  {"target registration error", check.target_error_mm, kUnknown, "mm"}};
+  if (check.diameter_mm > 0) q.parameters.push_back({"fitted diameter", check.diameter_mm, kUnknown, "mm"});
+  q.spread = {{"points", static_cast<double>(check.points), kUnknown, ""},
+              {"passes", static_cast<double>(check.passes), kUnknown, ""},
+              {"way of the scan", check.extent_mm, kUnknown, "mm"}};
+}
+
+void add_still(Quality& q, const std::vector<StillStation>& stations) {
+  for (const StillStation& s : stations) {
+    const std::string who = fmt::format("sensor {} at rest: ", s.station + 1);
+    q.parameters.push_back({who + "jitter, RMS", s.jitter_mm, kUnknown, "mm"});
+    q.parameters.push_back({who + "jitter, RMS", s.jitter_deg, kUnknown, "deg"});
+    q.parameters.push_back({who + "drift", s.drift_mm, kUnknown, "mm"});
+    if (std::isfinite(s.distortion))
+      q.parameters.push_back({who + "metal indicator", s.distortion, kUnknown, ""});
+  }
+}
+
+/// Both verdicts in one: what the body showed, what the tracker at rest showed.
+std::optional<Error> both(const Result<void>& body, const Result<void>& still) {
+  if (!body && !still) return Error{body.error().code, body.error().message + " " + still.error().message};
+  if (!body) return body.error();
+  if (!still) return still.error();
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<ScanLine>> placed_lines(const Session& session, const Calibration& calibration,
+                                           std::vector<LeftOut>& left_out) {
+  auto reconstructor = LineReconstructor::create(calibration, {});
+  if (!reconstructor) return tl::unexpected(reconstructor.error());
+  std::vector<ScanLine> lines;
+  for (const Observation& o : session.observations) {
+    if (o.line.empty()) continue;
+    const auto endoscope = session.pose_at(session.stations.endoscope, o.time, calibration.camera_latency);
+    const auto holder = holder_at(session, o.time, calibration.camera_latency);
+    if (!endoscope.ok() || !holder.ok()) {
+      const PoseMiss miss = endoscope.ok() ? holder.miss : endoscope.miss;
+      left_out.push_back({o.name, fmt::format("no pose: {}", linescope::name(miss))});
+      continue;
+    }
+    ExtractedLine line;
+    line.width = session.width;
+    line.height = session.height;
+    line.samples = o.line;
+    ReconstructedLine placed;
+    const auto world_from_endoscope = renamed<World, Endoscope>(endoscope.world_from_sensor);
+    if (auto ok = reconstructor->reconstruct(line, world_from_endoscope, placed); !ok)
+      return tl::unexpected(ok.error());
+    lines.push_back(in_holder(placed, holder));
+  }
+  return lines;
+}
+
+void CheckStep::declare(ConfigSchema& schema) {
+  schema.section("check", "A body of known size, and the tracker at rest.");
+  schema.choice("check.shape", shape_.shape,
+                {{"plane", Shape::plane}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}},
+                "What is scanned.");
+  schema.number("check.diameter_mm", shape_.diameter_mm, {.unit = "mm", .min = 5, .max = 1000},
+                "Of cylinder or sphere, by caliper.");
+  schema.integer("check.least_lines", shape_.least_lines, {.min = 10, .max = 100000}, "Laser lines needed.");
+  schema.integer("check.least_passes", shape_.least_passes, {.min = 1, .max = 1000},
+                 "Passes to and fro needed.");
+  schema.number("check.least_extent_mm", shape_.least_extent_mm, {.unit = "mm", .min = 1, .max = 1000},
+                "Way of the scan that is needed.");
+  const NumberSpec limit{.unit = "mm", .min = 0.001, .max = 100};
+  schema.number("check.most_bias_mm", shape_.most_bias_mm, limit,
+                "Limit of the systematic error of the size.");
+  schema.number("check.most_precision_mm", shape_.most_precision_mm, limit, "Limit of the points' SD.");
+  schema.number("check.most_repeatability_mm", shape_.most_repeatability_mm, limit,
+                "Limit of the passes' SD.");
+  schema.number("check.most_target_error_mm", shape_.most_target_error_mm, limit,
+                "Limit of the RMS error of points that were in no fit.");
+  schema.flag("check.still", still_test_, "Test the tracker at rest as well.");
+  schema.number("check.still_seconds", still_.least_seconds, {.unit = "s", .min = 0.5, .max = 600},
+                "A sensor has to lie still for so long.");
+  const NumberSpec small{.unit = "mm", .min = 0.001, .max = 10};
+  schema.number("check.most_jitter_mm", still_.most_jitter_mm, small,
+                "Limit of a resting sensor's RMS jitter.");
+  schema.number("check.most_jitter_deg", still_.most_jitter_deg, {.unit = "deg", .min = 0.001, .max = 10},
+                "The same of its attitude.");
+  schema.number("check.most_drift_mm", still_.most_drift_mm, small, "Limit of a resting sensor's drift.");
+  schema.number("check.most_distortion", still_.most_distortion, {.min = 0, .max = 1e6},
+                "Limit of the tracker's metal indicator, where it gives one.");
+}
+
+Result<void> CheckStep::validate() const {
+  if (auto ok = calibrate::validate(shape_); !ok) return ok;
+  return calibrate::validate(still_);
+}
+
+CollectOptions CheckStep::wants(const BoardOptions&) const {
+  CollectOptions wanted;
+  wanted.line = LineExtractorOptions{};
+  return wanted;
+}
+
+std::string CheckStep::coverage(const Session& so_far, const BoardOptions&) const {
+  return fmt::format("{} of {} pictures with a laser line", so_far.observations.size(), so_far.offered);
+}
+
+Result<Outcome> CheckStep::run(const Session& session, const BoardOptions&, const Calibration& before) const {
+  Outcome outcome;
+  outcome.method = fmt::format("{} of known size, least squares of distances", linescope::name(shape_.shape));
+  outcome.quality.offered = session.offered;
+  outcome.quality.left_out = session.left_out;
+  const auto lines = placed_lines(session, before, outcome.quality.left_out);
+  if (!lines) return tl::unexpected(lines.error());
+  const auto check = check_shape(*lines, shape_);
+  if (!check) return tl::unexpected(check.error());
+  add_shape(outcome, *check);
+  Result<void> still;
+  if (still_test_) {
+    std::vector<StillStation> stretches;
+    for (int station = 0; station < kMaxStations; ++station)
+      stretches.push_back(still_stretch(session.poses.at(static_cast<std::size_t>(station)), station));
+    const auto resting = check_still(stretches, still_);
+    if (!resting) return tl::unexpected(resting.error());
+    add_still(outcome.quality, *resting);
+    still = above_limit(*resting, still_);
+  }
+  outcome.refused = both(above_limit(*check, shape_), still);
+  return outcome;
+}
+
+}  // namespace linescope::calibrate

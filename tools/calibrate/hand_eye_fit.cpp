@@ -1,0 +1,298 @@
+#include "tools/calibrate/hand_eye_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/units.hpp"
+#include "tools/calibrate/board_pose.hpp"
+#include "tools/calibrate/hand_eye_solve.hpp"
+
+namespace linescope::calibrate {
+namespace {
+
+class HandEyeFitter {
+ public:
+  HandEyeFitter(const Session& session, const BoardOptions& board, const CameraModel& camera,
+                Nanoseconds latency, const HandEyeOptions& options)
+      : session_(session), board_(board), camera_(camera), latency_(latency), options_(options) {}
+
+  Result<HandEyeFit> run();
+
+ private:
+  Result<Rigid<Base, Endoscope>> pose_of(const Observation& seen) const;
+  void choose_pictures();
+  Result<void> check_count() const;
+  Result<void> check_turns() const;
+  std::optional<HandEyeSolution> start(const HandEyePictures& pictures,
+                                       std::vector<std::pair<std::string, double>>* methods) const;
+  std::optional<HandEyeSolution> solve(const HandEyePictures& pictures) const;
+  void drop_outliers();
+  void leave_out();
+  void check_scale(const HandEyeSolution& solution);
+  void check_mirror();
+  void describe(const HandEyeSolution& solution);
+  void judge();
+  HandEyePictures used() const;
+
+  const Session& session_;
+  const BoardOptions& board_;
+  const CameraModel& camera_;
+  Nanoseconds latency_;
+  const HandEyeOptions& options_;
+  std::vector<HandEyePicture> pictures_;
+  double corner_px_ = 0.1;
+  HandEyeFit fit_;
+};
+
+std::string_view sensor_name(bool endoscope) {
+  return endoscope ? "endoscope" : "object";
+}
+
+Result<Rigid<Base, Endoscope>> HandEyeFitter::pose_of(const Observation& seen) const {
+  const auto gap = static_cast<Nanoseconds>(options_.longest_gap_ms * 1e6);
+  const auto ask = [&](int station, bool endoscope) -> Result<Rigid<World, Sensor>> {
+    const PoseAnswer answer = session_.pose_at(station, seen.time, latency_, gap);
+    if (answer.ok()) return answer.world_from_sensor;
+    return fail(ErrorCode::invalid,
+                fmt::format("no pose of the {}: {}", sensor_name(endoscope),
+                            answer.miss == PoseMiss::state_bad ? name(answer.state) : name(answer.miss)));
+  };
+  const auto endoscope = ask(session_.stations.endoscope, true);
+  if (!endoscope) return tl::unexpected(endoscope.error());
+  if (options_.board_on == BoardFixedTo::world) return renamed<Base, Endoscope>(*endoscope);
+  const auto object = ask(session_.stations.object, false);
+  if (!object) return tl::unexpected(object.error());
+  return renamed<Base, Endoscope>(renamed<Sensor, World>(object->inverse()) *
+                                  renamed<World, Sensor>(*endoscope));
+}
+
+void HandEyeFitter::choose_pictures() {
+  Quality& q = fit_.quality;
+  q.unit = "mm";
+  q.offered = session_.offered;
+  q.left_out = session_.left_out;
+  for (const Observation& seen : session_.observations) {
+    if (seen.board.empty()) {
+      q.left_out.push_back({seen.name, "no board found"});
+      continue;
+    }
+    const auto board = board_pose(board_, camera_, seen.board);
+    const auto endoscope = pose_of(seen);
+    if (!board || board->rms_px > options_.max_board_px)
+      q.left_out.push_back({seen.name, board ? fmt::format("the board fits to {:.2f} px only", board->rms_px)
+                                             : board.error().message});
+    else if (!endoscope)
+      q.left_out.push_back({seen.name, endoscope.error().message});
+    else
+      pictures_.push_back({seen.name, board->camera_from_board, *endoscope,
+                           pose_covariance_per_px2(board_, camera_, seen.board, board->camera_from_board),
+                           board->rms_px});
+  }
+  double sum = 0;
+  for (const HandEyePicture& p : pictures_) sum += p.rms_px * p.rms_px;
+  // RMS over corners is that of two coordinates together.
+  if (!pictures_.empty())
+    corner_px_ = std::max(0.01, std::sqrt(sum / static_cast<double>(pictures_.size()) / 2));
+}
+
+Result<void> HandEyeFitter::check_count() const {
+  if (static_cast<int>(pictures_.size()) >= options_.min_pictures) return {};
+  const std::string why = fit_.quality.left_out.empty()
+                              ? std::string()
+                              : ", the first left out: " + fit_.quality.left_out.front().reason;
+  return tl::unexpected(refusal(
+      Refusal::too_few,
+      fmt::format("{} of {} pictures have both a board and a tracker pose, {} are needed{}", pictures_.size(),
+                  session_.offered, options_.min_pictures, why),
+      "Keep the board in view and the sensors within the tracker's reach, and hold still now and then"));
+}
+
+Result<void> HandEyeFitter::check_turns() const {
+  const double turn = degrees_from_radians(second_turn(used()));
+  if (turn >= options_.min_rotation_deg) return {};
+  return tl::unexpected(refusal(
+      Refusal::too_little_variation,
+      fmt::format("the endoscope was turned by {:.1f} degrees about a second axis, {:g} are needed: turns "
+                  "about one axis leave the camera's place along it open",
+                  turn, options_.min_rotation_deg),
+      "Tilt the endoscope to the left and right, and to and fro, and turn it about its own axis"));
+}
+
+HandEyePictures HandEyeFitter::used() const {
+  HandEyePictures all;
+  for (const HandEyePicture& p : pictures_) all.push_back(&p);
+  return all;
+}
+
+std::optional<HandEyeSolution> HandEyeFitter::start(
+    const HandEyePictures& pictures, std::vector<std::pair<std::string, double>>* methods) const {
+  std::optional<HandEyeSolution> best;
+  double least = 0;
+  for (const auto& [name, guess] : closed_forms(pictures)) {
+    HandEyeSolution s;
+    s.endoscope_from_camera = guess;
+    s.base_from_board = mean_board(pictures, guess);
+    const double error = chain_error(pictures, s, board_);
+    if (methods) methods->emplace_back(name, error);
+    if (!best || error < least) best = s, least = error;
+  }
+  return best;
+}
+
+std::optional<HandEyeSolution> HandEyeFitter::solve(const HandEyePictures& pictures) const {
+  const auto first = start(pictures, nullptr);
+  if (!first) return std::nullopt;
+  return refine(pictures, *first, corner_px_, false);
+}
+
+void HandEyeFitter::drop_outliers() {
+  while (static_cast<int>(pictures_.size()) > options_.min_pictures) {
+    const auto solution = solve(used());
+    if (!solution) return;
+    std::vector<double> errors;
+    for (const HandEyePicture& p : pictures_) errors.push_back(chain_error(p, *solution, board_));
+    auto sorted = errors;
+    std::sort(sorted.begin(), sorted.end());
+    const double usual = sorted[sorted.size() / 2];
+    const auto worst = std::max_element(errors.begin(), errors.end());
+    if (*worst <= options_.outlier_factor * usual) return;
+    const auto at = worst - errors.begin();
+    const std::string& name = pictures_[static_cast<std::size_t>(at)].name;
+    fit_.quality.left_out.push_back(
+        {name, fmt::format("outlier: {:.2f} mm, the others' median is {:.2f} mm", *worst, usual)});
+    fit_.quality.items.push_back({name, *worst, false, 4});
+    pictures_.erase(pictures_.begin() + at);
+  }
+}
+
+/// Each picture judged by the chain found from all others.
+void HandEyeFitter::leave_out() {
+  double sum = 0;
+  for (std::size_t out = 0; out < pictures_.size(); ++out) {
+    HandEyePictures others = used();
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
+    const auto solution = solve(others);
+    if (!solution) continue;
+    sum += std::pow(chain_error(pictures_[out], *solution, board_), 2);
+    ++fit_.quality.held_out_count;
+  }
+  if (fit_.quality.held_out_count > 0)
+    fit_.quality.held_out = std::sqrt(sum / static_cast<double>(fit_.quality.held_out_count));
+}
+
+/// The tracker measures in millimetres of its own: with the board's size as one more unknown a wrong size
+/// shows.
+void HandEyeFitter::check_scale(const HandEyeSolution& solution) {
+  const HandEyeSolution scaled = refine(used(), solution, corner_px_, true);
+  fit_.quality.parameters.push_back(
+      {"tracker's mm per board's mm", scaled.scale, scaled.scale_deviation, ""});
+  const double off = std::abs(scaled.scale - 1);
+  if (off > options_.max_scale_error && off > 3 * scaled.scale_deviation)
+    fit_.refused = refusal(
+        Refusal::error_above_limit,
+        fmt::format("by the tracker the board's squares measure {:.3f} mm (+-{:.3f}) instead of {:g} mm",
+                    scaled.scale * board_.square_mm, scaled.scale_deviation * board_.square_mm,
+                    board_.square_mm),
+        "Measure a square of the printed board, give its size as board.square_mm, and repeat the laser step "
+        "too");
+}
+
+/// A mirrored chessboard is a chessboard; its motions, however, are mirrored and fit no hand-eye.
+void HandEyeFitter::check_mirror() {
+  std::vector<HandEyePicture> others;
+  for (const HandEyePicture& p : pictures_) others.push_back(unmirrored(p));
+  HandEyePictures mirrored;
+  for (const HandEyePicture& p : others) mirrored.push_back(&p);
+  const auto solution = solve(mirrored);
+  if (!solution) return;
+  const double error = chain_error(mirrored, *solution, board_);
+  if (error < 0.5 * fit_.quality.residual && error < options_.max_residual_mm)
+    fit_.refused =
+        refusal(Refusal::error_above_limit,
+                fmt::format("the pictures are mirrored: read in a mirror they fit to {:.2f} mm, as "
+                            "they are to {:.2f} mm",
+                            error, fit_.quality.residual),
+                "Switch off the camera's mirror or flip, and calibrate the camera again");
+}
+
+void HandEyeFitter::describe(const HandEyeSolution& s) {
+  Quality& q = fit_.quality;
+  q.used = pictures_.size();
+  q.residual = chain_error(used(), s, board_);
+  for (const HandEyePicture& p : pictures_) q.items.push_back({p.name, chain_error(p, s, board_), true, 4});
+  fit_.endoscope_from_camera = s.endoscope_from_camera;
+  fit_.base_from_board = s.base_from_board;
+  fit_.tracker_noise_mm = s.tracker_noise_mm;
+  fit_.tracker_noise_rad = s.tracker_noise_rad;
+  const Eigen::Matrix<double, 6, 1> sd = s.covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector3d& t = s.endoscope_from_camera.translation();
+  const char* const axes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) q.parameters.push_back({axes[i], t(i), sd(3 + i), "mm"});
+  const Eigen::AngleAxisd turn(s.endoscope_from_camera.rotation());
+  for (int i = 0; i < 3; ++i)
+    q.parameters.push_back({fmt::format("turn about {}", axes[i]),
+                            degrees_from_radians(turn.angle() * turn.axis()(i)), degrees_from_radians(sd(i)),
+                            "deg"});
+  q.spread.push_back(
+      {"turn about a second axis", degrees_from_radians(second_turn(used())), kUnknown, "deg"});
+  q.spread.push_back({"tracker noise, position", s.tracker_noise_mm, kUnknown, "mm"});
+  q.spread.push_back(
+      {"tracker noise, direction", degrees_from_radians(s.tracker_noise_rad), kUnknown, "deg"});
+  std::tie(fit_.parallel_lever, fit_.parallel_rms_mm) = parallel_lever(used(), board_);
+}
+
+void HandEyeFitter::judge() {
+  const Quality& q = fit_.quality;
+  if (q.residual > options_.max_residual_mm) check_mirror();
+  if (fit_.refused) return;
+  if (q.residual > options_.max_residual_mm || q.held_out > options_.max_held_out_mm)
+    fit_.refused = refusal(
+        Refusal::error_above_limit,
+        fmt::format(
+            "residual {:.2f} mm ({:g} mm are allowed), on pictures that were in no fit {:.2f} mm ({:g})",
+            q.residual, options_.max_residual_mm, q.held_out, options_.max_held_out_mm),
+        "Is the board fixed and the sensor tight on the endoscope, is metal away from the transmitter, is "
+        "the "
+        "latency calibrated if the endoscope moved?");
+}
+
+Result<HandEyeFit> HandEyeFitter::run() {
+  choose_pictures();
+  if (auto ok = check_count(); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_turns(); !ok) return tl::unexpected(ok.error());
+  drop_outliers();
+  const auto first = start(used(), &fit_.methods);
+  if (!first)
+    return tl::unexpected(refusal(Refusal::too_little_variation, "none of the methods finds a transform",
+                                  "Turn the endoscope about more than one axis"));
+  const HandEyeSolution solution = refine(used(), *first, corner_px_, false);
+  describe(solution);
+  leave_out();
+  judge();
+  if (!fit_.refused) check_scale(solution);
+  return std::move(fit_);
+}
+
+}  // namespace
+
+Result<void> validate(const HandEyeOptions& o) {
+  if (o.min_pictures < 3)
+    return fail(ErrorCode::invalid,
+                fmt::format("hand-eye.min_pictures = {}: at least 3 are needed", o.min_pictures));
+  return {};
+}
+
+Result<HandEyeFit> fit_hand_eye(const Session& session, const BoardOptions& board, const CameraModel& camera,
+                                Nanoseconds latency, const HandEyeOptions& options) {
+  if (looks_alike_turned(board))
+    return fail(
+        ErrorCode::unsupported,
+        fmt::format("a board of {}x{} inner corners looks the same when it is turned: the hand-eye step "
+                    "needs one odd and one even number, or a ChArUco board",
+                    board.corners_x, board.corners_y));
+  return HandEyeFitter(session, board, camera, latency, options).run();
+}
+
+}  // namespace linescope::calibrate
