@@ -117,11 +117,13 @@ Figure fitted_cylinder_figure(const Points2& section, double true_diameter) {
 }
 
 Figure error_map_figure(const std::vector<MapPoint>& map) {
-  constexpr double kLimit = 0.6;
+  constexpr double kVertexPixels = 28, kStep = 0.2;  // vertices are 1.27 mm apart: no gaps between them
+  double limit = kStep;
+  for (const MapPoint& p : map) limit = std::max(limit, kStep * std::ceil(std::abs(p.error) / kStep));
   SvgChart chart(860, 0, {-16, 16, 4, "along the site, mm"}, {-8, 8, 4, "across, mm"}, true);
-  for (const MapPoint& p : map) chart.square(p.x, p.y, 9, diverging(p.error, kLimit));
-  for (const double e : {0.6, 0.3, 0.0, -0.3, -0.6})
-    chart.legend(diverging(e, kLimit), fmt::format("{:+.1f} mm", e));
+  for (const MapPoint& p : map) chart.square(p.x, p.y, kVertexPixels, diverging(p.error, limit));
+  for (const double share : {1.0, 0.5, 0.0, -0.5, -1.0})
+    chart.legend(diverging(share * limit, limit), fmt::format("{:+.1f} mm", share * limit));
   return {"error-map",
           "Femoral condyle, seed 1: how far the measured surface (better algorithms) lies outside (red) or "
           "inside (blue) the true one.",
@@ -129,7 +131,10 @@ Figure error_map_figure(const std::vector<MapPoint>& map) {
 }
 
 Figure navigation_boxes_figure(const std::vector<double>& plain, const std::vector<double>& better) {
-  SvgChart chart(980, 380, {0.5, 5.5, 0, ""}, {0, 30, 5, "error of the normal, degrees"});
+  double top = 30;
+  for (const double error : plain) top = std::max(top, 5 * std::ceil(error / 5));
+  for (const double error : better) top = std::max(top, 5 * std::ceil(error / 5));
+  SvgChart chart(980, 380, {0.5, 5.5, 0, ""}, {0, top, 5, "error of the normal, degrees"});
   draw_printed(chart, 1, "freehand, harvest", 14.8, 7.53, 6, 26);
   draw_printed(chart, 2, "freehand, recipient", 12.6, 3.98, 4, 17);
   draw_printed(chart, 3, "thesis", 9.5, 2.86, 5, 17);

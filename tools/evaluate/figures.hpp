@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/evaluate/report.hpp"
-#include "tools/evaluate/shape_fits.hpp"
+#include "viewer/measure/shape_fits.hpp"
 
 namespace linescope::evaluate {
 

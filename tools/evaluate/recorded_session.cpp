@@ -7,7 +7,7 @@
 
 #include "acquire/record/recording.hpp"
 #include "tools/evaluate/session_run.hpp"
-#include "tools/evaluate/shape_fits.hpp"
+#include "viewer/measure/shape_fits.hpp"
 #include "tools/evaluate/surfaces.hpp"
 #include "tools/evaluate/virtual_session.hpp"
 
