@@ -28,7 +28,8 @@ class ChunkedPool {
   }
 
   std::size_t size() const { return size_; }
-  void clear() { size_ = 0; }  ///< keeps the memory
+  void shrink(std::size_t size) { size_ = size; }  ///< forgets the newest ones; keeps the memory
+  void clear() { size_ = 0; }                      ///< keeps the memory
 
  private:
   static constexpr std::size_t kBits = 6, kMask = (std::size_t{1} << kBits) - 1;

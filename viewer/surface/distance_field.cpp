@@ -14,7 +14,8 @@ namespace {
 // thousands of patches.
 constexpr double kWeightUnit = 16;
 constexpr std::int64_t kMaxWeight = 1 << 18;
-constexpr double kDistanceUnit = 1 << 20;
+constexpr std::int64_t kDistanceStep = 1 << 20;
+constexpr double kDistanceUnit = kDistanceStep;
 constexpr double kNormalUnit = 1 << 16;
 
 constexpr double kSideAgreement =
@@ -32,6 +33,7 @@ std::int64_t fixed(double value, double unit) {
 struct Stamp {
   std::int64_t weight;
   std::array<std::int64_t, 3> normal;
+  std::array<std::int64_t, 3> centre;  // not yet weighted, from the cube's lowest corner
   std::int64_t deviation;
   std::int64_t points;
 };
@@ -44,9 +46,13 @@ Stamp stamp_of(const SurfacePatch& patch, int sign) {
   const std::int64_t weight = sign * std::clamp<std::int64_t>(fixed(counted, kWeightUnit), 1, kMaxWeight);
   Stamp stamp{weight,
               {},
+              {},
               weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit),
               sign * fixed(patch.points, 1)};
-  for (std::size_t i = 0; i < 3; ++i) stamp.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
+  for (std::size_t i = 0; i < 3; ++i) {
+    stamp.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
+    stamp.centre[i] = fixed(patch.centre[i], kDistanceUnit);
+  }
   return stamp;
 }
 
@@ -77,25 +83,27 @@ void DistanceField::apply(const MomentCell& cell, const SurfacePatch& patch, int
                         std::abs(patch.normal[static_cast<std::size_t>(v)])) /
                        std::abs(along);
   const double reach = std::min(1.0 + slope, 3.0);
+  const std::int64_t rise = fixed(along, kDistanceUnit);  // of the distance, per interval along the axis
   for (int corner = 0; corner < 4; ++corner) {
     const double height = patch.height[static_cast<std::size_t>(corner)];
     if (!(std::abs(height) < 2 * kPatchReach)) continue;
     const GridIndex foot = plus(plus(cell.at, u, corner & 1), v, corner >> 1);
     const int low = static_cast<int>(std::floor(height - reach)),
               high = static_cast<int>(std::ceil(height + reach));
+    const std::int64_t at_foot = fixed(-height * along, kDistanceUnit);
     for (int k = low; k <= high; ++k) {
       const std::int32_t number = vertex_at(plus(foot, patch.axis, k));
       FieldVertex& vertex = vertices_[number];
       VertexSums& sums = vertex.sums;
       sums.weight += stamp.weight;
-      sums.distance += stamp.weight * fixed((k - height) * along, kDistanceUnit);
+      sums.distance += stamp.weight * (at_foot + k * rise);
       sums.deviation += stamp.deviation;
       sums.points += stamp.points;
       const std::array<int, 3> from_cell{vertex.at.x - cell.at.x, vertex.at.y - cell.at.y,
                                          vertex.at.z - cell.at.z};
       for (std::size_t i = 0; i < 3; ++i) {
         sums.normal[i] += stamp.normal[i];
-        sums.centre[i] += stamp.weight * fixed(patch.centre[i] - from_cell[i], kDistanceUnit);
+        sums.centre[i] += stamp.weight * (stamp.centre[i] - from_cell[i] * kDistanceStep);
       }
       if (vertex.changed) continue;
       vertex.changed = true;
@@ -115,12 +123,7 @@ std::int32_t DistanceField::vertex_at(GridIndex at) {
 }
 
 std::array<std::int32_t, 8> DistanceField::corners_of(const FieldVertex& low) const {
-  const int x = low.at.x & 7, y = low.at.y & 7, z = low.at.z & 7;
-  std::array<std::int32_t, 8> corners{};
-  for (int i = 0; i < 8; ++i)
-    corners[static_cast<std::size_t>(i)] =
-        SparseIndex::near(*low.block, x + (i & 1), y + (i >> 1 & 1), z + (i >> 2));
-  return corners;
+  return SparseIndex::corners(*low.block, low.at, 1);
 }
 
 void DistanceField::update() {
@@ -128,9 +131,7 @@ void DistanceField::update() {
   for (const std::int32_t number : changed_) evaluate(vertices_[number]);
   for (const std::int32_t number : changed_) {
     const FieldVertex& at = vertices_[number];
-    const int x = at.at.x & 7, y = at.at.y & 7, z = at.at.z & 7;
-    for (int i = 0; i < 8; ++i) {
-      const std::int32_t low = SparseIndex::near(*at.block, x - (i & 1), y - (i >> 1 & 1), z - (i >> 2));
+    for (const std::int32_t low : SparseIndex::corners(*at.block, at.at, -1)) {
       if (low == SparseIndex::kNone || vertices_[low].round == round_) continue;
       vertices_[low].round = round_;
       find_case(vertices_[low]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/surface/hole_filler.hpp"
+
 namespace linescope {
 
 ImplicitMesher::ImplicitMesher(const MesherOptions& options)
@@ -52,6 +54,7 @@ void ImplicitMesher::update() {
 void ImplicitMesher::write_mesh(TriangleMesh& mesh) {
   update();
   extractor_.extract(field_, mesh);
+  if (options_.fill_holes_up_to > 0) fill_holes(mesh, options_.fill_holes_up_to);
 }
 
 std::vector<Eigen::Vector3f> ImplicitMesher::grid_vertices() {

@@ -11,7 +11,7 @@ MomentGrid::MomentGrid(double interval, std::size_t max_memory)
 
 void MomentGrid::begin_sweep() {
   ++sweep_;
-  journal_.emplace_back();
+  sweep_begins_.push_back(journal_.size());
 }
 
 std::uint64_t MomentGrid::add_line(const PlacedLine& line, const Eigen::Vector3d& seen_from) {
@@ -89,8 +89,7 @@ Eigen::Vector3d MomentGrid::towards_camera(const Eigen::Vector3d& seen_from) con
 void MomentGrid::merge(const LineCell& part, const Eigen::Vector3d& towards) {
   MomentCell& cell = cells_[part.cell];
   if (cell.sweep != sweep_) {
-    journal_.back().emplace_back(part.cell, cell.content);
-    journal_bytes_ += sizeof(journal_.back().front());
+    journal_[journal_.add()] = {part.cell, cell.content};
     cell.sweep = sweep_;
   }
   if (!cell.occupied()) ++occupied_;
@@ -113,17 +112,18 @@ void MomentGrid::forget_changes() {
 }
 
 std::int64_t MomentGrid::remove_last_sweep() {
-  if (journal_.empty()) return -1;
+  if (sweep_begins_.empty()) return -1;
   std::int64_t removed = 0;
-  for (const auto& [number, before] : journal_.back()) {
+  for (std::size_t i = sweep_begins_.back(); i < journal_.size(); ++i) {
+    const auto& [number, before] = journal_[static_cast<std::int32_t>(i)];
     MomentCell& cell = cells_[number];
     removed += cell.content.sums.points() - before.sums.points();
     if (!before.occupied()) --occupied_;
     cell.content = before;
     flag_changed(number);
   }
-  journal_bytes_ -= journal_.back().size() * sizeof(journal_.back().front());
-  journal_.pop_back();
+  journal_.shrink(sweep_begins_.back());
+  sweep_begins_.pop_back();
   return removed;
 }
 
@@ -132,7 +132,8 @@ void MomentGrid::clear() {
   cells_.clear();
   changed_.clear();
   journal_.clear();
-  occupied_ = journal_bytes_ = 0;
+  sweep_begins_.clear();
+  occupied_ = 0;
 }
 
 std::int32_t MomentGrid::cell_at(GridIndex at) {
@@ -151,16 +152,19 @@ std::int32_t MomentGrid::cell_at(GridIndex at) {
 void MomentGrid::link(const SparseIndex::Block& block, std::int32_t number) {
   MomentCell& cell = cells_[number];
   const int x = cell.at.x & 7, y = cell.at.y & 7, z = cell.at.z & 7;
+  const auto within = [](int i) { return i > 0 && i + 1 < kBlockSize; };
+  const bool in_block = within(x) && within(y) && within(z);
   for (int slot = 0; slot < 27; ++slot) {
-    const std::int32_t other =
-        SparseIndex::near(block, x + slot % 3 - 1, y + slot / 3 % 3 - 1, z + slot / 9 - 1);
+    const GridIndex place{x + slot % 3 - 1, y + slot / 3 % 3 - 1, z + slot / 9 - 1};
+    const std::int32_t other = in_block ? block.number[static_cast<std::size_t>(local_of(place))]
+                                        : SparseIndex::near(block, place.x, place.y, place.z);
     cell.near[static_cast<std::size_t>(slot)] = other;
     if (other != SparseIndex::kNone) cells_[other].near[static_cast<std::size_t>(26 - slot)] = number;
   }
 }
 
 std::size_t MomentGrid::memory_bytes() const {
-  return index_.memory_bytes() + cells_.size() * sizeof(MomentCell) + journal_bytes_;
+  return index_.memory_bytes() + cells_.size() * sizeof(MomentCell) + journal_.size() * sizeof(CellBefore);
 }
 
 }  // namespace linescope

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "viewer/surface/cell_moments.hpp"
@@ -50,10 +49,15 @@ class MomentGrid {
   const MomentCell& cell(std::int32_t number) const { return cells_[number]; }
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t occupied() const { return occupied_; }
-  std::size_t sweeps() const { return journal_.size(); }
+  std::size_t sweeps() const { return sweep_begins_.size(); }
   std::size_t memory_bytes() const;
 
  private:
+  /// A cube as it was before a sweep touched it.
+  struct CellBefore {
+    std::int32_t cell = 0;
+    CellContent content;
+  };
   struct LineCell {
     std::int32_t cell = 0;
     MomentSums sums;
@@ -72,10 +76,10 @@ class MomentGrid {
   SparseIndex index_;
   ChunkedPool<MomentCell> cells_;
   std::vector<std::int32_t> changed_;
-  std::vector<std::vector<std::pair<std::int32_t, CellContent>>> journal_;
-  std::size_t journal_bytes_ = 0;
-  std::vector<MomentSums> tile_;      // all zero between lines
-  std::vector<LineCell> line_cells_;  // the line being taken in
+  ChunkedPool<CellBefore> journal_;
+  std::vector<std::size_t> sweep_begins_;  // in journal_
+  std::vector<MomentSums> tile_;           // all zero between lines
+  std::vector<LineCell> line_cells_;       // the line being taken in
   std::uint32_t sweep_ = 0;
   std::uint32_t line_ = 0;
   std::size_t occupied_ = 0;

@@ -37,12 +37,6 @@ std::int32_t linked(const MomentCell& from, int axis, int column, int height) {
   return from.near[slots[static_cast<std::size_t>(height + 1)]];
 }
 
-// The same, if it holds points.
-std::int32_t occupied_near(const MomentGrid& grid, const MomentCell& from, int axis, int column, int height) {
-  const std::int32_t number = linked(from, axis, column, height);
-  return number != SparseIndex::kNone && grid.cell(number).occupied() ? number : SparseIndex::kNone;
-}
-
 constexpr int kOwnColumn = 4;
 
 // Lent curvature is right within this share of the curvature to expect.
@@ -66,14 +60,11 @@ void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   waiting_.clear();
   for (const std::int32_t cell : grid.changed())
     records_[cell].statistics = statistics_of(grid.cell(cell).content);
-  collect_affected(grid);
+  const bool all = collect_affected(grid);
   for (const std::int32_t cell : affected_)
     for (int axis = 0; axis < 3; ++axis)
       if ((records_[cell].redo >> axis & 1) != 0) refit(grid, cell, axis, listener);
-  // What borders on a patch that was looked at borrows from it.
-  for (const std::int32_t cell : affected_)
-    for (const std::int32_t other : grid.cell(cell).near)
-      if (other != kNone) let_wait(other, records_[other].border & records_[cell].redo);
+  if (!all) let_borrowers_wait(grid);
   for (const std::int32_t cell : affected_) records_[cell].redo = 0;
   for (const std::int32_t cell : waiting_) {
     for (int axis = 0; axis < 3; ++axis)
@@ -82,18 +73,34 @@ void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   }
 }
 
+// What borders on a patch that was looked at borrows from it.
+void PatchMap::let_borrowers_wait(const MomentGrid& grid) {
+  for (const std::int32_t cell : affected_)
+    for (const std::int32_t other : grid.cell(cell).near)
+      if (other != kNone) let_wait(other, records_[other].border & records_[cell].redo);
+}
+
+// The same as linked(), if it holds points.
+std::int32_t PatchMap::occupied_near(const MomentCell& from, int axis, int column, int height) const {
+  const std::int32_t number = linked(from, axis, column, height);
+  return number != kNone && records_[number].statistics.points != 0 ? number : kNone;
+}
+
 // A patch depends on the stretches of cubes, in the nine columns around its cube, that begin next to it
 // (gather_column). The other way round: a changed cube affects all cubes next to it, and those farther along
 // an axis only through cubes that lead there. In its own column it also decides who is the middle; in the
 // others only middles care. Cubes emptied by an undo still lead, so nothing is missed.
-void PatchMap::collect_affected(const MomentGrid& grid) {
+bool PatchMap::collect_affected(const MomentGrid& grid) {
+  for (const std::int32_t changed : grid.changed()) visit(changed, 0b111);
+  if (affected_.size() == grid.cell_count()) return true;
   for (const std::int32_t changed : grid.changed())
     for (const std::int32_t other : grid.cell(changed).near)
       if (other != kNone) visit(other, 0b111);
-  if (affected_.size() == grid.cell_count()) return;
+  if (affected_.size() == grid.cell_count()) return true;
   for (const std::int32_t changed : grid.changed())
     for (int axis = 0; axis < 3; ++axis)
       for (const int direction : {-1, 1}) collect_along(grid, changed, axis, direction);
+  return false;
 }
 
 void PatchMap::collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction) {
@@ -144,11 +151,12 @@ void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, Patc
   const unsigned bit = 1u << axis;
   record.middle = static_cast<std::uint8_t>(record.middle & ~bit);
   record.border = static_cast<std::uint8_t>(record.border & ~bit);
-  if (!grid.cell(number).occupied() || !is_middle_of_column(grid, number, axis)) return;
+  if (record.statistics.points == 0 || !is_middle_of_column(grid, number, axis)) return;
   record.middle = static_cast<std::uint8_t>(record.middle | bit);
   const PatchInput input = input_of(grid, number, axis);
-  if (has_all_columns(input))
-    return hold(grid, number, fit_patch(input, {{}, curvature_variance_}, options_), listener);
+  PatchFit fit(input, options_);
+  if (!fit.possible()) return;
+  if (fit.has_all_columns()) return hold(grid, number, fit.patch({{}, curvature_variance_}), listener);
   record.border = static_cast<std::uint8_t>(record.border | bit);
   let_wait(number, bit);
 }
@@ -156,8 +164,9 @@ void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, Patc
 void PatchMap::refit_at_border(const MomentGrid& grid, std::int32_t number, int axis,
                                PatchListener& listener) {
   drop(grid, number, axis, listener);
-  hold(grid, number, fit_patch(input_of(grid, number, axis), lent_curvature(grid, number, axis), options_),
-       listener);
+  const PatchInput input = input_of(grid, number, axis);
+  PatchFit fit(input, options_);
+  if (fit.possible()) hold(grid, number, fit.patch(lent_curvature(grid, number, axis)), listener);
 }
 
 // At a border the columns cannot tell slope from curvature: it is taken from the complete patches next to it.
@@ -192,7 +201,7 @@ bool PatchMap::is_middle_of_column(const MomentGrid& grid, std::int32_t number, 
   for (const int direction : {-1, 1}) {
     std::int32_t at = number;
     for (int h = direction;; h += direction) {
-      at = occupied_near(grid, grid.cell(at), axis, kOwnColumn, direction);
+      at = occupied_near(grid.cell(at), axis, kOwnColumn, direction);
       if (at == kNone) break;
       if (std::abs(h) == kPatchReach) return false;
       const CellStatistics& s = records_[at].statistics;
@@ -210,7 +219,7 @@ void PatchMap::gather_column(const MomentGrid& grid, std::int32_t middle, int ax
   int height = 0;
   for (const int h : {0, 1, -1}) {
     if (seed != kNone) break;
-    seed = occupied_near(grid, grid.cell(middle), axis, i, h);
+    seed = occupied_near(grid.cell(middle), axis, i, h);
     height = h;
   }
   if (seed == kNone) return;
@@ -218,7 +227,7 @@ void PatchMap::gather_column(const MomentGrid& grid, std::int32_t middle, int ax
   for (const int direction : {-1, 1}) {
     std::int32_t at = seed;
     for (int h = height + direction; std::abs(h) <= kPatchReach; h += direction) {
-      at = occupied_near(grid, grid.cell(at), axis, kOwnColumn, direction);
+      at = occupied_near(grid.cell(at), axis, kOwnColumn, direction);
       if (at == kNone) break;
       column.add({&records_[at].statistics, offset_along(axis, i, h)});
     }

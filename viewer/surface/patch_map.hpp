@@ -43,13 +43,16 @@ class PatchMap {
     std::array<std::int32_t, 3> patch{kNone, kNone, kNone};  ///< per axis: number in patches_
     std::uint8_t middle =
         0;  ///< bit a: the cube was the middle of its column along axis a when last looked at
-    std::uint8_t border = 0;  ///< bit a: it was, and some of the columns around were thin
-    std::uint8_t redo = 0;    ///< bit a: the patch along axis a has to be looked at
-    std::uint8_t wait = 0;    ///< bit a: the same, after all that are not at a border
+    std::uint8_t border =
+        0;  ///< bit a: it was, and could carry a patch, and some of the columns around were thin
+    std::uint8_t redo = 0;  ///< bit a: the patch along axis a has to be looked at
+    std::uint8_t wait = 0;  ///< bit a: the same, after all that are not at a border
   };
 
-  void collect_affected(const MomentGrid& grid);
+  bool collect_affected(const MomentGrid& grid);
   void collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction);
+  void let_borrowers_wait(const MomentGrid& grid);
+  std::int32_t occupied_near(const MomentCell& from, int axis, int column, int height) const;
   void visit(std::int32_t cell, unsigned axes);
   void drop(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
   void refit(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);

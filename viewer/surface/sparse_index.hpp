@@ -33,6 +33,24 @@ class SparseIndex {
     return at == nullptr ? kNone : at->number[static_cast<std::size_t>(local_of({x, y, z}))];
   }
 
+  /// The numbers at the corners of a cube (bit 0: x, 1: y, 2: z) that lies above `at` (step 1) or below it
+  /// (step -1). `at` lies in the block.
+  static std::array<std::int32_t, 8> corners(const Block& block, GridIndex at, int step) {
+    const int x = at.x & 7, y = at.y & 7, z = at.z & 7, edge = step > 0 ? kBlockSize - 1 : 0;
+    std::array<std::int32_t, 8> result{};
+    if (x != edge && y != edge && z != edge) {  // about two of three: all in this block
+      const auto own = static_cast<std::size_t>(local_of(at));
+      constexpr std::array<std::size_t, 8> kWays{0, 1, 8, 9, 64, 65, 72, 73};
+      for (std::size_t i = 0; i < 8; ++i)
+        result[i] = block.number[step > 0 ? own + kWays[i] : own - kWays[i]];
+      return result;
+    }
+    for (int i = 0; i < 8; ++i)
+      result[static_cast<std::size_t>(i)] =
+          near(block, x + step * (i & 1), y + step * (i >> 1 & 1), z + step * (i >> 2));
+    return result;
+  }
+
   /// Calls `visit(number)` for every record in an order that depends on the places only.
   template <class Visit>
   void for_each_ordered(Visit visit) {

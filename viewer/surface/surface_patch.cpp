@@ -39,12 +39,8 @@ struct Axes {
   std::size_t h, u, v;
 };
 
-// Sums over the cubes of one column about the middle of the neighbourhood's middle column.
-struct Column {
-  double w = 0, points = 0, lines = 0;
-  double u = 0, v = 0, h = 0, uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  // sums, after finish(): means
-  bool empty() const { return w == 0; }
-};
+using Column = ColumnSums;
+using Window = PatchWindow;
 
 struct Place {
   double u, v, h;
@@ -82,7 +78,6 @@ void finish(Column& column) {
     *sum *= inverse;
 }
 
-using Columns = std::array<Column, 9>;
 using Coefficients = std::array<double, 6>;  // a b c d e f
 
 double height_at(const Coefficients& k, double u, double v) {
@@ -96,13 +91,6 @@ struct Normal2 {  // slopes of the height
 Normal2 slopes_at(const Coefficients& k, double u, double v) {
   return {k[1] + 2 * k[3] * u + k[4] * v, k[2] + k[4] * u + 2 * k[5] * v};
 }
-
-struct Window {
-  Columns columns{};
-  double weight = 0, points = 0, lines = 0, best_column = 0;
-  double spread = 0;      // variance across the narrowest direction of u, v
-  double axis_share = 0;  // square of the normal's component along h, from the covariance of all points
-};
 
 double narrowest_variance(double uu, double uv, double vv) {
   const double half = 0.5 * (uu + vv), difference = 0.5 * (uu - vv);
@@ -323,31 +311,32 @@ std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, 
 
 }  // namespace
 
-bool has_all_columns(const PatchInput& input) {
-  std::array<double, 9> points{};
-  for (std::size_t i = 0; i < 9; ++i)
-    for (int c = 0; c < input.columns[i].count; ++c)
-      points[i] += input.columns[i].cells[static_cast<std::size_t>(c)].statistics->points;
-  const auto [least, most] = std::minmax_element(points.begin(), points.end());
-  return *least >= kFairShare * *most;
+PatchFit::PatchFit(const PatchInput& input, const PatchOptions& options)
+    : input_(input), options_(options), window_(window_of(input, Axes(input.axis), {})) {}
+
+bool PatchFit::possible() const {
+  return enough(window_, options_);
 }
 
-std::optional<SurfacePatch> fit_patch(const PatchInput& input, const CurvaturePrior& prior,
-                                      const PatchOptions& options) {
-  const Axes ax(input.axis);
+bool PatchFit::has_all_columns() const {
+  return std::all_of(window_.columns.begin(), window_.columns.end(), [this](const Column& column) {
+    return column.points >= kFairShare * window_.best_column;
+  });
+}
+
+std::optional<SurfacePatch> PatchFit::patch(const CurvaturePrior& prior) {
+  const Axes ax(input_.axis);
   Excluded excluded{};
-  Window window = window_of(input, ax, excluded);
-  if (!enough(window, options)) return std::nullopt;
-  Solution found = solve(window, prior, options);
-  double variance = point_variance(window, found.k, options.point_variance);
-  for (int round = 0; round < 2 && find_wild_cells(input, ax, found.k, variance, excluded); ++round) {
-    window = window_of(input, ax, excluded);
-    if (!enough(window, options)) return std::nullopt;
-    found = solve(window, prior, options);
-    variance = point_variance(window, found.k, options.point_variance);
+  Solution found = solve(window_, prior, options_);
+  double variance = point_variance(window_, found.k, options_.point_variance);
+  for (int round = 0; round < 2 && find_wild_cells(input_, ax, found.k, variance, excluded); ++round) {
+    window_ = window_of(input_, ax, excluded);
+    if (!possible()) return std::nullopt;
+    found = solve(window_, prior, options_);
+    variance = point_variance(window_, found.k, options_.point_variance);
   }
   if (slopes_at(found.k, 0, 0).along_h() < kSteepest) return std::nullopt;
-  return patch_from(input, ax, window, found, variance);
+  return patch_from(input_, ax, window_, found, variance);
 }
 
 }  // namespace linescope

@@ -64,12 +64,42 @@ struct SurfacePatch {
   std::array<double, 3> curvature{};  ///< d, e, f
 };
 
-/// Nothing when there are too few points or lines, when they lie along a line, or when the axis turns out to
-/// be wrong.
-std::optional<SurfacePatch> fit_patch(const PatchInput& input, const CurvaturePrior& prior,
-                                      const PatchOptions& options);
+/// Sums over the cubes of one column, about the middle of the neighbourhood's middle column.
+struct ColumnSums {
+  double w = 0, points = 0, lines = 0;
+  double u = 0, v = 0, h = 0, uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  ///< in the end: means
+  bool empty() const { return w == 0; }
+};
 
-/// True when every column has a fair share of points: the patch then shows its curvature by itself.
-bool has_all_columns(const PatchInput& input);
+/// All nine columns, and what they say together.
+struct PatchWindow {
+  std::array<ColumnSums, 9> columns{};
+  double weight = 0, points = 0, lines = 0, best_column = 0;
+  double spread = 0;      ///< variance across the narrowest direction of u, v
+  double axis_share = 0;  ///< square of the normal's component along h, from the covariance of all points
+};
+
+/// One fit, in two steps, because what curvature to believe in may not be known at first.
+class PatchFit {
+ public:
+  /// Both must outlive the fit.
+  PatchFit(const PatchInput& input, const PatchOptions& options);
+
+  /// False when there are too few points or lines, when they lie along a line, or when the surface does not
+  /// look along the axis: there is no patch, whatever the curvature.
+  bool possible() const;
+
+  /// True when every column has a fair share of points: the patch then shows its curvature by itself.
+  bool has_all_columns() const;
+
+  /// Nothing when wild cubes left too little, or when the axis turns out to be wrong.
+  /// Precondition: possible().
+  std::optional<SurfacePatch> patch(const CurvaturePrior& prior);
+
+ private:
+  const PatchInput& input_;
+  const PatchOptions& options_;
+  PatchWindow window_;
+};
 
 }  // namespace linescope

@@ -4,6 +4,17 @@
 
 namespace linescope::testing {
 
+double rms_of_all(const TriangleMesh& mesh, const CondyleScan& scan, double margin) {
+  double squares = 0, count = 0;
+  for (const Eigen::Vector3f& p : mesh.positions) {
+    if (scan.beyond_border(p) > -margin) continue;
+    const double d = scan.distance(p);
+    squares += d * d;
+    ++count;
+  }
+  return std::sqrt(squares / std::max(count, 1.0));
+}
+
 MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin) {
   MeshAccuracy result;
   std::vector<double> distances;

@@ -145,4 +145,7 @@ struct MeshAccuracy {
 
 MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin);
 
+/// Root mean square over all vertices within the same margin, stray or not.
+double rms_of_all(const TriangleMesh& mesh, const CondyleScan& scan, double margin);
+
 }  // namespace linescope::testing

@@ -1,0 +1,141 @@
+// Holes are closed on request only, in triangles that say so, and never across the outer border.
+#include "viewer/surface/hole_filler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/surface/mesh_topology.hpp"
+#include "tests/unit/surface/surface_phantom.hpp"
+#include "viewer/surface/mesher.hpp"
+
+namespace linescope {
+namespace {
+
+constexpr double kHoleRadius = 2.5;  // mm
+
+testing::CondyleScan scan_with_hole() {
+  auto scan = testing::scan_condyle();
+  for (auto& line : scan.lines)
+    std::erase_if(line.points,
+                  [](const SurfacePoint& p) { return p.position.head<2>().norm() < kHoleRadius; });
+  return scan;
+}
+
+TriangleMesh mesh_of(const testing::CondyleScan& scan, double fill_up_to) {
+  MesherOptions options;
+  options.fill_holes_up_to = fill_up_to;
+  const auto mesher = std::move(*make_mesher(options));
+  testing::add_all(*mesher, scan.lines);
+  return mesher->mesh();
+}
+
+TEST(HoleFiller, ClosesTheHoleAndSaysWhereItDid) {
+  const auto scan = scan_with_hole();
+  const TriangleMesh open = mesh_of(scan, 0), closed = mesh_of(scan, 25);
+  const auto topology = testing::topology_of(closed);
+  EXPECT_EQ(topology.euler(), 1);  // a disc, where the open mesh is a ring
+  EXPECT_EQ(topology.pieces, 1u);
+  EXPECT_EQ(topology.repeated_edges, 0u);
+  ASSERT_GT(closed.triangle_count(), open.triangle_count());
+  ASSERT_EQ(closed.origin.size(), closed.triangle_count());
+  for (std::size_t i = 0; i < closed.triangle_count(); ++i) {
+    const bool added = i >= open.triangle_count();
+    EXPECT_EQ(closed.origin[i], added ? TriangleOrigin::filled : TriangleOrigin::measured) << i;
+    if (!added) {
+      EXPECT_EQ(closed.triangles[i], open.triangles[i]) << i;
+    }
+  }
+}
+
+TEST(HoleFiller, WhatIsAddedHasNoObservationsAndGoesOnWithTheCurvature) {
+  const auto scan = scan_with_hole();
+  const TriangleMesh open = mesh_of(scan, 0), closed = mesh_of(scan, 25);
+  ASSERT_GT(closed.vertex_count(), open.vertex_count());
+  for (std::size_t i = open.vertex_count(); i < closed.vertex_count(); ++i) {
+    EXPECT_EQ(closed.observations[i], 0u);
+    EXPECT_TRUE(std::isnan(closed.uncertainty[i]));
+    EXPECT_LT(closed.positions[i].head<2>().norm(), kHoleRadius);
+    // A lid without curvature would lie r^2 / 2R = 0.13 mm too low in the middle.
+    EXPECT_LT(std::abs(scan.distance(closed.positions[i])), 0.06);
+    const Eigen::Vector3d truth = scan.truth.normal(closed.positions[i].cast<double>());
+    EXPECT_GT(closed.normals[i].cast<double>().dot(truth), std::cos(0.1));
+  }
+  for (const auto& [a, b, c] : closed.triangles) {
+    const Eigen::Vector3f across =
+        (closed.positions[b] - closed.positions[a]).cross(closed.positions[c] - closed.positions[a]);
+    EXPECT_GE(across.dot(closed.normals[a]), 0);
+  }
+}
+
+TEST(HoleFiller, LeavesLongRimsAndTheOuterBorderOpen) {
+  const auto scan = scan_with_hole();
+  const TriangleMesh open = mesh_of(scan, 0);
+  EXPECT_EQ(mesh_of(scan, 8).triangles, open.triangles);  // the rim is some 14 mm long
+  TriangleMesh mesh = open;
+  HoleCounts counts = fill_holes(mesh, 8);
+  EXPECT_EQ(counts.filled, 0u);
+  EXPECT_EQ(counts.left, 1u);
+  counts = fill_holes(mesh, 1000);  // longer than the outer border
+  EXPECT_EQ(counts.filled, 1u);
+  EXPECT_EQ(counts.left, 0u);
+  EXPECT_GT(testing::topology_of(mesh).open_edges, 50u);
+  counts = fill_holes(mesh, 1000);
+  EXPECT_EQ(counts.filled, 0u);
+}
+
+/// A flat square of `cells` x `cells` squares of 1 mm, some of them missing.
+TriangleMesh flat_mesh(int cells, const std::vector<std::array<int, 2>>& missing) {
+  TriangleMesh mesh;
+  for (int y = 0; y <= cells; ++y)
+    for (int x = 0; x <= cells; ++x) {
+      mesh.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0f);
+      mesh.normals.emplace_back(0, 0, 1);
+      mesh.uncertainty.push_back(0.1f);
+      mesh.observations.push_back(1);
+    }
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x) {
+      if (std::find(missing.begin(), missing.end(), std::array{x, y}) != missing.end()) continue;
+      const auto at = [&](int dx, int dy) {
+        return static_cast<std::uint32_t>((y + dy) * (cells + 1) + x + dx);
+      };
+      mesh.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
+      mesh.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
+    }
+  mesh.origin.assign(mesh.triangle_count(), TriangleOrigin::measured);
+  return mesh;
+}
+
+TEST(HoleFiller, HolesThatTouchInACornerAreTwoHoles) {
+  TriangleMesh mesh = flat_mesh(6, {{2, 2}, {3, 3}});
+  const HoleCounts counts = fill_holes(mesh, 10);
+  EXPECT_EQ(counts.filled, 2u);
+  EXPECT_NEAR(mesh.area(), 36, 1e-4);
+  EXPECT_EQ(testing::topology_of(mesh).repeated_edges, 0u);
+  EXPECT_EQ(testing::topology_of(mesh).open_edges, 24u);
+}
+
+TEST(HoleFiller, ARimThatHidesPartOfItselfIsLeftOpenRatherThanFolded) {
+  const TriangleMesh bent =
+      flat_mesh(8, {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {5, 2}, {5, 3}, {5, 4}, {5, 5}});
+  TriangleMesh mesh = bent;
+  const HoleCounts counts = fill_holes(mesh, 100);
+  EXPECT_EQ(counts.filled, 0u);
+  EXPECT_EQ(counts.left, 1u);
+  EXPECT_EQ(mesh.triangles, bent.triangles);
+}
+
+TEST(HoleFiller, AnEmptyMeshAndALoneTriangleStayAsTheyAre) {
+  TriangleMesh mesh;
+  EXPECT_EQ(fill_holes(mesh, 100).filled, 0u);
+  mesh = flat_mesh(1, {});
+  mesh.triangles.pop_back();
+  mesh.origin.pop_back();
+  EXPECT_EQ(fill_holes(mesh, 100).filled, 0u);
+  EXPECT_EQ(mesh.triangle_count(), 1u);
+}
+
+}  // namespace
+}  // namespace linescope
