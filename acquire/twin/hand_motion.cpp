@@ -19,6 +19,8 @@ constexpr double kHover = 35;    // mm, harvester above a spot between spots
 constexpr double kGapHz = 0.23;
 constexpr double kTipTremor = 0.03;    // mm; the tip rests on the bone
 constexpr double kAxisTremor = 0.004;  // rad
+constexpr double kProppedHand = 0.2;   // of its unsteadiness is left at the views of the board
+constexpr double kFixtureSlip = 0.2;   // of both, where divot or bushing hold the tool
 
 double smooth(double fraction) {
   const double f = std::clamp(fraction, 0.0, 1.0);
@@ -67,6 +69,7 @@ HandMotion::HandMotion(const TwinOptions& options, const Phantom& phantom)
     : options_(options),
       timeline_(options.hand),
       profile_(phantom, 0.5 * options.phantom.site_length_mm + 4),
+      calibration_(options.seed, options.instrument.lens, options.phantom.board),
       spots_(choose_spots(options, phantom)),
       position_tremor_(options.seed, 1, options.hand.tremor_mm, options.hand.wander_mm),
       rotation_tremor_(options.seed, 2, options.hand.tremor_rad, options.hand.wander_rad),
@@ -115,6 +118,10 @@ Rigid<PhantomFrame, CameraCv> HandMotion::planned_camera(const Moment& moment, d
       return interpolate(over_site(sweep_position(end), gap_at(seconds)), resting_camera(),
                          smooth(moment.fraction()));
     }
+    case Phase::board:
+      return calibration_.views(moment.since);
+    case Phase::shake:
+      return calibration_.shake(moment.since);
     default:
       return resting_camera();
   }
@@ -124,8 +131,9 @@ Rigid<PhantomFrame, CameraCv> HandMotion::phantom_from_camera(double seconds) co
   const Moment now = timeline_.at(seconds);
   const auto planned = planned_camera(now, seconds);
   if (now.phase == Phase::stand) return planned;
-  return {planned.rotation() * small_rotation(rotation_tremor_.at(seconds)),
-          planned.translation() + position_tremor_.at(seconds)};
+  const double share = now.phase == Phase::board ? kProppedHand : 1;
+  return {planned.rotation() * small_rotation(share * rotation_tremor_.at(seconds)),
+          planned.translation() + share * position_tremor_.at(seconds)};
 }
 
 HarvesterHold HandMotion::on_spot(int spot, double tilt) const {
@@ -133,11 +141,11 @@ HarvesterHold HandMotion::on_spot(int spot, double tilt) const {
   const double azimuth = tilt_azimuth_[static_cast<std::size_t>(spot)];
   const Vector3d across = at.normal.unitOrthogonal();
   const Vector3d hinge = AngleAxisd(azimuth, at.normal) * across;
-  return {at.position, AngleAxisd(tilt, hinge) * at.normal};
+  return {at.position, AngleAxisd(tilt, hinge) * at.normal, 0};
 }
 
 HarvesterHold HandMotion::hovering(int spot) const {
-  if (spot < 0) return {Vector3d(60, -50, 70), Vector3d(0.3, -0.2, 1).normalized()};
+  if (spot < 0) return {Vector3d(60, -50, 70), Vector3d(0.3, -0.2, 1).normalized(), 0};
   HarvesterHold hold = on_spot(spot, options_.hand.tilt_start_rad * 1.6);
   hold.tip += kHover * hold.axis;
   return hold;
@@ -146,7 +154,7 @@ HarvesterHold HandMotion::hovering(int spot) const {
 HarvesterHold HandMotion::planned_harvester(const Moment& moment) const {
   const HandOptions& hand = options_.hand;
   const auto blend = [](const HarvesterHold& a, const HarvesterHold& b, double f) {
-    return HarvesterHold{a.tip + f * (b.tip - a.tip), (a.axis + f * (b.axis - a.axis)).normalized()};
+    return HarvesterHold{a.tip + f * (b.tip - a.tip), (a.axis + f * (b.axis - a.axis)).normalized(), 0};
   };
   const double way = smooth(moment.fraction());
   switch (moment.phase) {
@@ -166,15 +174,21 @@ HarvesterHold HandMotion::planned_harvester(const Moment& moment) const {
       return on_spot(moment.spot, hand.tilt_end_rad);
     case Phase::leave:
       return blend(on_spot(moment.spot, hand.tilt_end_rad), hovering(-1), way);
+    case Phase::pivot:
+      return CalibrationMotion::pivot(moment.since);
+    case Phase::spin:
+      return CalibrationMotion::spin(moment.since);
     default:
       return hovering(-1);
   }
 }
 
 HarvesterHold HandMotion::harvester(double seconds) const {
-  HarvesterHold hold = planned_harvester(timeline_.at(seconds));
-  hold.tip += tip_tremor_.at(seconds);
-  hold.axis = small_rotation(axis_tremor_.at(seconds)) * hold.axis;
+  const Moment now = timeline_.at(seconds);
+  HarvesterHold hold = planned_harvester(now);
+  const double slip = now.phase == Phase::pivot || now.phase == Phase::spin ? kFixtureSlip : 1;
+  hold.tip += slip * tip_tremor_.at(seconds);
+  hold.axis = small_rotation(slip * axis_tremor_.at(seconds)) * hold.axis;
   return hold;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "acquire/twin/calibration_motion.hpp"
 #include "acquire/twin/phantom.hpp"
 #include "acquire/twin/site_profile.hpp"
 #include "acquire/twin/timeline.hpp"
@@ -17,12 +18,6 @@ namespace linescope::twin {
 struct SpotOnPhantom {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
-};
-
-/// Tip and axis in the phantom's frame.
-struct HarvesterHold {
-  Eigen::Vector3d tip;
-  Eigen::Vector3d axis;  ///< unit, from the tip to the handle
 };
 
 class HandMotion {
@@ -51,6 +46,7 @@ class HandMotion {
   TwinOptions options_;
   Timeline timeline_;
   SiteProfile profile_;
+  CalibrationMotion calibration_;
   std::vector<SpotOnPhantom> spots_;
   std::vector<double> tilt_azimuth_;
   Tremor position_tremor_, rotation_tremor_, tip_tremor_, axis_tremor_;

@@ -8,10 +8,14 @@
 namespace linescope::twin {
 namespace {
 
-constexpr std::array<std::pair<Scenario, std::string_view>, 4> kNames{{{Scenario::demo, "demo"},
+constexpr std::array<std::pair<Scenario, std::string_view>, 8> kNames{{{Scenario::demo, "demo"},
                                                                        {Scenario::sweeps, "sweeps"},
                                                                        {Scenario::spots, "spots"},
-                                                                       {Scenario::still, "still"}}};
+                                                                       {Scenario::still, "still"},
+                                                                       {Scenario::board, "board"},
+                                                                       {Scenario::shake, "shake"},
+                                                                       {Scenario::pivot, "pivot"},
+                                                                       {Scenario::spin, "spin"}}};
 
 }  // namespace
 
@@ -20,7 +24,9 @@ Result<Scenario> scenario_from_name(std::string_view wanted) {
     if (text == wanted) return scenario;
   }
   return fail(ErrorCode::usage,
-              fmt::format("no scenario is called '{}': use demo, sweeps, spots or still", wanted));
+              fmt::format("no scenario is called '{}': use demo, sweeps, spots or still, and to "
+                          "calibrate board, shake, pivot or spin",
+                          wanted));
 }
 
 std::string_view name(Scenario scenario) {

@@ -12,6 +12,10 @@ enum class Scenario {
   sweeps,  ///< sweep the site to and fro; for ever
   spots,   ///< harvester at the spots one after another, the endoscope out of view; for ever
   still,   ///< the endoscope stands over the middle of the site, no tremor
+  board,   ///< the endoscope looks at the board from many sides and stands still at each
+  shake,   ///< the endoscope moves to and fro before the board
+  pivot,   ///< the harvester swings about its tip
+  spin,    ///< the harvester turns about its own axis
 };
 
 struct HandOptions {

@@ -1,3 +1,4 @@
+#include "acquire/twin/board_phantom.hpp"
 #include "acquire/twin/ellipsoid.hpp"
 #include "acquire/twin/phantom.hpp"
 #include "acquire/twin/simple_shapes.hpp"
@@ -34,6 +35,8 @@ Result<std::shared_ptr<const Phantom>> make_phantom(const PhantomOptions& option
       return std::make_shared<CylinderBody>(options.cylinder_diameter_mm);
     case PhantomKind::mini_knee:
       return mini_knee();
+    case PhantomKind::board:
+      return std::make_shared<BoardPhantom>(options.board);
     case PhantomKind::mesh:
       return make_triangle_phantom(options.mesh);
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "acquire/twin/paint.hpp"
 #include "acquire/twin/phantom_kind.hpp"
 #include "common/result.hpp"
 
@@ -35,6 +36,9 @@ class Phantom {
 
   /// True when no part of the body can shade another part that faces the light.
   virtual bool convex() const = 0;
+
+  /// What is printed on it; null: it looks like tissue. Lives as long as the phantom.
+  virtual const Paint* paint() const { return nullptr; }
 
   /// The surface as a JSON object: kind and numbers.
   virtual std::string json() const = 0;

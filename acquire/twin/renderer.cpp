@@ -86,8 +86,9 @@ Vector3d Renderer::white_light(const Seen& seen) const {
   const double distance = seen.point.norm();
   const double cosine = std::max(0.0, -seen.normal.dot(seen.point) / distance);
   const double falloff = light.reference_distance_mm / distance;
-  const Vector3d place = middle_.rotation * seen.point + middle_.eye;
-  return light.led_brightness * falloff * falloff * cosine * tissue_.albedo(place);
+  const double level = light.led_brightness * falloff * falloff * cosine;
+  if (phantom_.paint()) return Vector3d::Constant(level);  // the pattern comes later, pixel by pixel
+  return level * tissue_.albedo(middle_.rotation * seen.point + middle_.eye);
 }
 
 double Renderer::level_at(const Shift& shift, const ViewRay& ray, const Seen& seen) const {
@@ -144,6 +145,32 @@ void Renderer::fill_white_cell(int i, int j) {
   }
 }
 
+// What the paint makes of the pixel's light. The surface is its tangent plane from one pixel to the next.
+double Renderer::printed(int u, int v, const Seen& seen) const {
+  const auto way_to = [&](int du, int dv) {
+    const ViewRay& ray = rays_.at(u + du, v + dv);
+    if (!ray.lit()) return Vector3d(Vector3d::Zero());
+    const double along = seen.normal.dot(seen.point - ray.origin) / seen.normal.dot(ray.direction);
+    return Vector3d(middle_.rotation * (ray.origin + along * ray.direction - seen.point));
+  };
+  const int right = u + 1 < options_.instrument.lens.width ? 1 : -1;
+  const int down = v + 1 < options_.instrument.lens.height ? 1 : -1;
+  return phantom_.paint()->reflectance(middle_.rotation * seen.point + middle_.eye, way_to(right, 0),
+                                       way_to(0, down));
+}
+
+void Renderer::print_pattern() {
+  if (!phantom_.paint()) return;
+  for (int v = 0; v < options_.instrument.lens.height; ++v) {
+    for (int u = 0; u < options_.instrument.lens.width; ++u) {
+      const Seen seen = look(rays_.at(u, v));
+      if (!seen.hit) continue;
+      const auto share = static_cast<float>(printed(u, v, seen));
+      for (float& level : light_.at(u, v)) level *= share;
+    }
+  }
+}
+
 // The line may cross a cell whose corners are all off it: the offset between corners tells how far to be
 // careful.
 bool Renderer::near_line(int i, int j) const {
@@ -180,7 +207,9 @@ void Renderer::add_line_cell(int i, int j) {
       const double level = laser_level(ray, seen);
       if (!(level > 0)) continue;
       const double grain = speckle_factor(options_.optics.line, options_.seed, index_, u, v);
-      const double back = tissue_.albedo(middle_.rotation * seen.point + middle_.eye)[kGreen];
+      const double back = phantom_.paint()
+                              ? printed(u, v, seen)
+                              : tissue_.albedo(middle_.rotation * seen.point + middle_.eye)[kGreen];
       auto& pixel = light_.at(u, v);
       for (int k = 0; k < 3; ++k) {
         pixel[static_cast<std::size_t>(k)] += static_cast<float>(level * back * grain * kLaserColour[k]);
@@ -195,6 +224,7 @@ void Renderer::render(const std::vector<Glance>& glances, std::uint64_t index, c
   take_views(glances);
   cast_grid();
   fill_white();
+  print_pattern();
   add_line();
   disturbances_.add(light_, seconds_);
   sensor_.expose(light_, index, bgr);

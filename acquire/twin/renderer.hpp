@@ -3,9 +3,10 @@
 //
 // Backwards ray casting: each pixel's ray is followed to the surface, and the light there is asked for. White
 // light changes slowly, so it is cast on a grid of every fourth pixel and filled in between; near the line
-// every pixel is cast. During one exposure the surface is taken as its tangent plane at the pixel's hit (a
-// hand moves it by some 0.2 mm: an error of about a micrometre on a knee), so that one cast serves all
-// instants. One thread; nothing is allocated per picture once the first is done.
+// every pixel is cast, and everywhere when something is printed on the surface (a calibration board). During
+// one exposure the surface is taken as its tangent plane at the pixel's hit (a hand moves it by some 0.2 mm:
+// an error of about a micrometre on a knee), so that one cast serves all instants. One thread; nothing is
+// allocated per picture once the first is done.
 #pragma once
 
 #include <Eigen/Core>
@@ -71,6 +72,8 @@ class Renderer {
   void cast_grid();
   void fill_white();
   void fill_white_cell(int i, int j);
+  double printed(int u, int v, const Seen& seen) const;
+  void print_pattern();
   bool near_line(int i, int j) const;
   void add_line();
   void add_line_cell(int i, int j);

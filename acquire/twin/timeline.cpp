@@ -2,12 +2,15 @@
 
 #include <cmath>
 
+#include "acquire/twin/calibration_motion.hpp"
+
 namespace linescope::twin {
 namespace {
 
 constexpr double kApproachSeconds = 0.8;
 constexpr double kTravelSeconds = 1.2;
 constexpr double kHoldSeconds = 1.0;
+constexpr double kEndlessSeconds = 1e6;  // motions that never repeat themselves
 
 }  // namespace
 
@@ -27,6 +30,18 @@ Timeline::Timeline(const HandOptions& options) {
       break;
     case Scenario::still:
       add(Phase::stand, 1.0);
+      break;
+    case Scenario::board:
+      add(Phase::board, kBoardViews * (kViewHoldSeconds + kViewMoveSeconds));
+      break;
+    case Scenario::shake:
+      add(Phase::shake, kEndlessSeconds);
+      break;
+    case Scenario::pivot:
+      add(Phase::pivot, kEndlessSeconds);
+      break;
+    case Scenario::spin:
+      add(Phase::spin, kSpinSeconds);
       break;
   }
 }

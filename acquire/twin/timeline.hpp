@@ -16,6 +16,10 @@ enum class Phase {
   hold,      ///< harvester on the spot, as good as the operator gets it
   leave,     ///< harvester back to its rest
   stand,     ///< endoscope over the middle of the site, still
+  board,     ///< endoscope from view to view of the board
+  shake,     ///< endoscope to and fro before the board
+  pivot,     ///< harvester about its tip
+  spin,      ///< harvester about its axis
 };
 
 struct Moment {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquire/twin/board_phantom.hpp"
 #include "acquire/twin/hand_motion.hpp"
 #include "acquire/twin/phantom.hpp"
 #include "acquire/twin/stage.hpp"
@@ -14,11 +15,12 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Sensor 3 is turned so that its axis lies along `axis`; the turn about the axis is the least one.
-Rigid<World, Harvester> pose_from_hold(const Vector3d& tip, const Vector3d& axis,
-                                       const InstrumentOptions& instrument) {
-  const Quaterniond turn = Quaterniond::FromTwoVectors(instrument.harvester_axis, axis);
-  return {turn, tip - turn * instrument.harvester_tip};
+// Sensor 3 is turned so that its axis lies along `axis`; the turn about the axis is the least one, and the
+// spin.
+Rigid<World, Harvester> pose_from_hold(const HarvesterTruth& hold, const InstrumentOptions& instrument) {
+  const Quaterniond turn = Eigen::AngleAxisd(hold.spin_rad, hold.axis) *
+                           Quaterniond::FromTwoVectors(instrument.harvester_axis, hold.axis);
+  return {turn, hold.tip - turn * instrument.harvester_tip};
 }
 
 }  // namespace
@@ -64,12 +66,17 @@ Rigid<PhantomFrame, CameraCv> TwinTruth::phantom_from_camera(Nanoseconds time) c
   return world_from_phantom.inverse() * world_from_camera(time);
 }
 
+Rigid<World, Board> TwinTruth::world_from_board(Nanoseconds time) const {
+  return world_from_object(time) * stage_->object_from_phantom() * phantom_from_board(options_.phantom.board);
+}
+
 HarvesterTruth TwinTruth::harvester(Nanoseconds time) const {
   const HarvesterHold hold = hand_->harvester(seconds(time));
   const auto world_from_phantom = world_from_object(time) * stage_->object_from_phantom();
   HarvesterTruth truth;
   truth.tip = world_from_phantom * hold.tip;
   truth.axis = world_from_phantom.rotate(hold.axis);
+  truth.spin_rad = hold.spin_rad;
   const Moment moment = hand_->moment(seconds(time));
   if (moment.phase != Phase::tilt && moment.phase != Phase::hold) return truth;
   truth.spot = moment.spot;
@@ -79,8 +86,7 @@ HarvesterTruth TwinTruth::harvester(Nanoseconds time) const {
 }
 
 Rigid<World, Harvester> TwinTruth::world_from_harvester(Nanoseconds time) const {
-  const HarvesterTruth truth = harvester(time);
-  return pose_from_hold(truth.tip, truth.axis, options_.instrument);
+  return pose_from_hold(harvester(time), options_.instrument);
 }
 
 bool TwinTruth::scanning(Nanoseconds time) const {

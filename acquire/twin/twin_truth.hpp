@@ -28,6 +28,7 @@ struct MarkedSpot {
 struct HarvesterTruth {
   Eigen::Vector3d tip;
   Eigen::Vector3d axis;  ///< unit, from the tip to the handle
+  double spin_rad = 0;   ///< turn about the axis
   int spot = -1;         ///< index of the spot it stands on, -1 while it moves between spots
   double angle_to_normal_rad =
       0;  ///< between axis and the true normal of that spot; meaningless when spot is -1
@@ -48,6 +49,8 @@ class TwinTruth {
   Rigid<World, Harvester> world_from_harvester(Nanoseconds time) const;
   Rigid<World, CameraCv> world_from_camera(Nanoseconds time) const;
   Rigid<PhantomFrame, CameraCv> phantom_from_camera(Nanoseconds time) const;
+  /// The calibration board (BoardPattern); meaningless for other phantoms.
+  Rigid<World, Board> world_from_board(Nanoseconds time) const;
   HarvesterTruth harvester(Nanoseconds time) const;
 
   /// True while the hand sweeps over the site; false while it approaches, withdraws or rests out of view.
