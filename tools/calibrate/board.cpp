@@ -52,7 +52,14 @@ bool chessboard_corners(const cv::Mat& grey, cv::Size size, std::vector<cv::Poin
   if (found(grey, cv::CALIB_CB_EXHAUSTIVE)) return true;
   cv::Mat even;
   cv::createCLAHE(4, {4, 4})->apply(grey, even);
-  return found(even, cv::CALIB_CB_EXHAUSTIVE) || found(grey, cv::CALIB_CB_NORMALIZE_IMAGE);
+  if (found(even, cv::CALIB_CB_EXHAUSTIVE)) return true;
+  if (!cv::findChessboardCorners(
+          grey, size, corners,
+          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
+    return false;
+  cv::cornerSubPix(grey, corners, {5, 5}, {-1, -1},
+                   {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 0.001});
+  return rows_are_smooth(size, corners);
 }
 
 /// Sum over the cells of +-brightness: positive when the first cell's colour is the brighter one.

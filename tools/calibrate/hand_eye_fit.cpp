@@ -8,9 +8,17 @@
 #include "common/units.hpp"
 #include "tools/calibrate/board_pose.hpp"
 #include "tools/calibrate/hand_eye_solve.hpp"
+#include "tools/calibrate/rotation_vector.hpp"
 
 namespace linescope::calibrate {
 namespace {
+
+/// Each picture judged by the chain found from all others.
+struct LeftOutChain {
+  double rms = kUnknown;  ///< mm
+  std::size_t pictures = 0;
+  std::vector<Rigid<Endoscope, CameraCv>> without;
+};
 
 class HandEyeFitter {
  public:
@@ -27,12 +35,13 @@ class HandEyeFitter {
   Result<void> check_turns() const;
   std::optional<HandEyeSolution> start(const HandEyePictures& pictures,
                                        std::vector<std::pair<std::string, double>>* methods) const;
-  std::optional<HandEyeSolution> solve(const HandEyePictures& pictures) const;
+  std::optional<HandEyeSolution> solve(const HandEyePictures& pictures, HandEyeWeights weights) const;
   void drop_outliers();
-  void leave_out();
+  LeftOutChain leave_one_out(HandEyeWeights weights) const;
+  LeftOutChain choose_weights();
   void check_scale(const HandEyeSolution& solution);
   void check_mirror();
-  void describe(const HandEyeSolution& solution);
+  void describe(const HandEyeSolution& solution, const LeftOutChain& left_out);
   void judge();
   HandEyePictures used() const;
 
@@ -141,15 +150,17 @@ std::optional<HandEyeSolution> HandEyeFitter::start(
   return best;
 }
 
-std::optional<HandEyeSolution> HandEyeFitter::solve(const HandEyePictures& pictures) const {
+std::optional<HandEyeSolution> HandEyeFitter::solve(const HandEyePictures& pictures,
+                                                    HandEyeWeights weights) const {
   const auto first = start(pictures, nullptr);
   if (!first) return std::nullopt;
-  return refine(pictures, *first, corner_px_, false);
+  return weights == HandEyeWeights::corners ? refine_corners(pictures, *first, board_)
+                                            : refine(pictures, *first, corner_px_, false);
 }
 
 void HandEyeFitter::drop_outliers() {
   while (static_cast<int>(pictures_.size()) > options_.min_pictures) {
-    const auto solution = solve(used());
+    const auto solution = solve(used(), options_.weights);
     if (!solution) return;
     std::vector<double> errors;
     for (const HandEyePicture& p : pictures_) errors.push_back(chain_error(p, *solution, board_));
@@ -167,19 +178,48 @@ void HandEyeFitter::drop_outliers() {
   }
 }
 
-/// Each picture judged by the chain found from all others.
-void HandEyeFitter::leave_out() {
+LeftOutChain HandEyeFitter::leave_one_out(HandEyeWeights weights) const {
+  LeftOutChain result;
   double sum = 0;
   for (std::size_t out = 0; out < pictures_.size(); ++out) {
     HandEyePictures others = used();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
-    const auto solution = solve(others);
+    const auto solution = solve(others, weights);
     if (!solution) continue;
     sum += std::pow(chain_error(pictures_[out], *solution, board_), 2);
-    ++fit_.quality.held_out_count;
+    ++result.pictures;
+    result.without.push_back(solution->endoscope_from_camera);
   }
-  if (fit_.quality.held_out_count > 0)
-    fit_.quality.held_out = std::sqrt(sum / static_cast<double>(fit_.quality.held_out_count));
+  if (result.pictures > 0) result.rms = std::sqrt(sum / static_cast<double>(result.pictures));
+  return result;
+}
+
+LeftOutChain HandEyeFitter::choose_weights() {
+  fit_.weights = options_.weights;
+  if (options_.weights != HandEyeWeights::automatic) return leave_one_out(options_.weights);
+  LeftOutChain tracker = leave_one_out(HandEyeWeights::tracker);
+  LeftOutChain corners = leave_one_out(HandEyeWeights::corners);
+  // A little better by chance does not count: the tracker's weights also say how certain the result is.
+  const bool robot = corners.rms < 0.9 * tracker.rms;
+  fit_.weights = robot ? HandEyeWeights::corners : HandEyeWeights::tracker;
+  fit_.quality.remarks.push_back(fmt::format(
+      "Error on pictures that were in no fit: weighed by tracker noise {:.3f} mm, by corners in space "
+      "{:.3f} mm.",
+      tracker.rms, corners.rms));
+  return robot ? corners : tracker;
+}
+
+/// Jackknife: how the result moves when one picture is missing.
+Eigen::Matrix<double, 6, 1> jackknife(const LeftOutChain& chain, const Rigid<Endoscope, CameraCv>& all) {
+  Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+  for (const auto& one : chain.without) {
+    Eigen::Matrix<double, 6, 1> moved;
+    moved << vector_from_quaternion(one.rotation() * all.rotation().conjugate()),
+        one.translation() - all.translation();
+    squares += moved.cwiseAbs2();
+  }
+  const auto n = static_cast<double>(chain.without.size());
+  return ((n - 1) / n * squares).cwiseSqrt();
 }
 
 /// The tracker measures in millimetres of its own: with the board's size as one more unknown a wrong size
@@ -205,7 +245,7 @@ void HandEyeFitter::check_mirror() {
   for (const HandEyePicture& p : pictures_) others.push_back(unmirrored(p));
   HandEyePictures mirrored;
   for (const HandEyePicture& p : others) mirrored.push_back(&p);
-  const auto solution = solve(mirrored);
+  const auto solution = solve(mirrored, fit_.weights);
   if (!solution) return;
   const double error = chain_error(mirrored, *solution, board_);
   if (error < 0.5 * fit_.quality.residual && error < options_.max_residual_mm)
@@ -217,7 +257,7 @@ void HandEyeFitter::check_mirror() {
                 "Switch off the camera's mirror or flip, and calibrate the camera again");
 }
 
-void HandEyeFitter::describe(const HandEyeSolution& s) {
+void HandEyeFitter::describe(const HandEyeSolution& s, const LeftOutChain& left_out) {
   Quality& q = fit_.quality;
   q.used = pictures_.size();
   q.residual = chain_error(used(), s, board_);
@@ -226,7 +266,10 @@ void HandEyeFitter::describe(const HandEyeSolution& s) {
   fit_.base_from_board = s.base_from_board;
   fit_.tracker_noise_mm = s.tracker_noise_mm;
   fit_.tracker_noise_rad = s.tracker_noise_rad;
-  const Eigen::Matrix<double, 6, 1> sd = s.covariance.diagonal().cwiseSqrt();
+  q.held_out = left_out.rms;
+  q.held_out_count = left_out.pictures;
+  Eigen::Matrix<double, 6, 1> sd = s.covariance.diagonal().cwiseSqrt();
+  if (!sd.allFinite()) sd = jackknife(left_out, s.endoscope_from_camera);
   const Eigen::Vector3d& t = s.endoscope_from_camera.translation();
   const char* const axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) q.parameters.push_back({axes[i], t(i), sd(3 + i), "mm"});
@@ -237,9 +280,11 @@ void HandEyeFitter::describe(const HandEyeSolution& s) {
                             "deg"});
   q.spread.push_back(
       {"turn about a second axis", degrees_from_radians(second_turn(used())), kUnknown, "deg"});
-  q.spread.push_back({"tracker noise, position", s.tracker_noise_mm, kUnknown, "mm"});
-  q.spread.push_back(
-      {"tracker noise, direction", degrees_from_radians(s.tracker_noise_rad), kUnknown, "deg"});
+  if (fit_.weights != HandEyeWeights::corners) {
+    q.spread.push_back({"tracker noise, position", s.tracker_noise_mm, kUnknown, "mm"});
+    q.spread.push_back(
+        {"tracker noise, direction", degrees_from_radians(s.tracker_noise_rad), kUnknown, "deg"});
+  }
   std::tie(fit_.parallel_lever, fit_.parallel_rms_mm) = parallel_lever(used(), board_);
 }
 
@@ -267,11 +312,12 @@ Result<HandEyeFit> HandEyeFitter::run() {
   if (!first)
     return tl::unexpected(refusal(Refusal::too_little_variation, "none of the methods finds a transform",
                                   "Turn the endoscope about more than one axis"));
-  const HandEyeSolution solution = refine(used(), *first, corner_px_, false);
-  describe(solution);
-  leave_out();
+  const LeftOutChain left_out = choose_weights();
+  const auto solution = solve(used(), fit_.weights);
+  if (!solution) return tl::unexpected(Error{ErrorCode::internal, "hand-eye: no solution"});
+  describe(*solution, left_out);
   judge();
-  if (!fit_.refused) check_scale(solution);
+  if (!fit_.refused) check_scale(*solution);
   return std::move(fit_);
 }
 

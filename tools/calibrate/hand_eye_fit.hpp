@@ -13,8 +13,16 @@ struct Base {};  ///< where the board is fixed: the world, or the object's senso
 
 enum class BoardFixedTo { world, object };
 
+/// What the joint fit makes small.
+enum class HandEyeWeights {
+  automatic,  ///< the one of the two with the smaller error on pictures that were in no fit
+  tracker,    ///< misfits over what tracker noise and corner noise explain: electromagnetic trackers
+  corners,    ///< distances of the board's corners in space: poses that are better than the camera (robots)
+};
+
 struct HandEyeOptions {
   BoardFixedTo board_on = BoardFixedTo::world;
+  HandEyeWeights weights = HandEyeWeights::automatic;
   int min_pictures = 8;
   double min_rotation_deg = 8;  ///< RMS turn about the second axis: with one axis only, no lever can be found
   double max_board_px = 1.0;    ///< RMS of the board's corners; a picture above is left out
@@ -38,7 +46,8 @@ struct HandEyePicture {
 struct HandEyeFit {
   Rigid<Endoscope, CameraCv> endoscope_from_camera;
   Rigid<Base, Board> base_from_board;
-  Quality quality;  ///< mm
+  HandEyeWeights weights = HandEyeWeights::tracker;  ///< the choice made
+  Quality quality;                                   ///< mm
   std::optional<Error> refused;
   std::vector<std::pair<std::string, double>> methods;  ///< OpenCV's methods by name: RMS of the corners, mm
   /// Eq 4.9's special case, camera and sensor in parallel: L_r and the RMS it leaves, mm.

@@ -179,6 +179,28 @@ HandEyeSolution refine(const HandEyePictures& pictures, const HandEyeSolution& s
   return s;
 }
 
+HandEyeSolution refine_corners(const HandEyePictures& pictures, const HandEyeSolution& start,
+                               const BoardOptions& board) {
+  Eigen::VectorXd steps(12);
+  steps << Eigen::Vector3d::Constant(1e-6), Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-6),
+      Eigen::Vector3d::Constant(1e-4);
+  const auto corners = outer_corners(board);
+  const auto residuals = [&](const Eigen::VectorXd& d, Eigen::VectorXd& r) {
+    const HandEyeSolution s = stepped(start, d);
+    Eigen::Index row = 0;
+    for (const HandEyePicture* p : pictures)
+      for (const Eigen::Vector3d& corner : corners) {
+        const Eigen::Vector3d seen = s.endoscope_from_camera * (p->camera_from_board * corner);
+        r.segment<3>(row) = p->base_from_endoscope * seen - s.base_from_board * corner;
+        row += 3;
+      }
+  };
+  const Fit fit = least_squares(residuals, 12 * pictures.size(), Eigen::VectorXd::Zero(12), steps);
+  HandEyeSolution s = stepped(start, fit.unknowns);
+  s.covariance.setConstant(kUnknown);
+  return s;
+}
+
 double chain_error(const HandEyePicture& picture, const HandEyeSolution& solution,
                    const BoardOptions& board) {
   const Rigid<Base, CameraCv> base_from_camera = picture.base_from_endoscope * solution.endoscope_from_camera;

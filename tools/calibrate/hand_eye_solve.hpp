@@ -35,6 +35,11 @@ Rigid<Base, Board> mean_board(const HandEyePictures& pictures,
 HandEyeSolution refine(const HandEyePictures& pictures, const HandEyeSolution& start, double corner_px,
                        bool with_scale);
 
+/// The least squares of the board's corners in space, each picture alike: for poses that are better known
+/// than the camera is (a robot). Leaves `covariance` unknown.
+HandEyeSolution refine_corners(const HandEyePictures& pictures, const HandEyeSolution& start,
+                               const BoardOptions& board);
+
 /// RMS distance over the board's corners between where the chain puts them and where they are, mm.
 double chain_error(const HandEyePicture& picture, const HandEyeSolution& solution, const BoardOptions& board);
 double chain_error(const HandEyePictures& pictures, const HandEyeSolution& solution,
