@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "tools/evaluate/shape_fits.hpp"
+#include "viewer/measure/shape_fits.hpp"
 
-namespace linescope::evaluate {
+namespace linescope {
 namespace {
 
 using Eigen::Vector2d;
@@ -86,4 +86,4 @@ TEST(CylinderFit, FindsAnAxisNobodyToldIt) {
 }
 
 }  // namespace
-}  // namespace linescope::evaluate
+}  // namespace linescope
