@@ -54,9 +54,18 @@ Readout interval_readout(const NavigationView& n) {
       fmt::format("{:.1f} – {:.1f}°", degrees_from_radians(n.angle_low), degrees_from_radians(n.angle_high)));
 }
 
-Readout millimetres(double value, const char* missing) {
-  if (!std::isfinite(value)) return blank(missing);
-  return number(fmt::format("{:.1f} mm", value));
+Readout millimetres(std::optional<double> value, const char* missing) {
+  if (!value) return blank(missing);
+  return number(fmt::format("{:.1f} mm", *value));
+}
+
+NormalEstimate estimate_of(const NavigationView& n) {
+  NormalEstimate estimate;
+  estimate.reason = NormalReason::none;
+  estimate.angle = n.angle;
+  estimate.distance = n.distance;
+  estimate.depth = n.depth;
+  return estimate;
 }
 
 Mood mood_of(ToolState state) {
@@ -97,6 +106,8 @@ const char* title(ToolRole role) {
 Banner link_banner(const LiveView& live) {
   const std::string start = "Start linescope-acquire; the viewer attaches by itself.";
   switch (live.link.state) {
+    case LinkState::file:
+      return {Mood::off, live.link.text, "Nothing is live. L goes back to the daemon."};
     case LinkState::searching:
       return {Mood::caution, fmt::format("No daemon on segment \"{}\"", live.link.segment), start};
     case LinkState::silent:
@@ -177,21 +188,35 @@ std::string age_text(Nanoseconds since, Nanoseconds now) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-AngleReadout angle_readout(const ViewState& state, Nanoseconds now, const Tolerance& tolerance) {
+GuidanceOptions guidance_options(const Tolerance& tolerance) {
+  GuidanceOptions options;
+  options.angle_tolerance = radians_from_degrees(tolerance.angle_deg);
+  options.distance_tolerance = tolerance.distance_mm;
+  return options;
+}
+
+AngleReadout angle_readout(const ViewState& state, Nanoseconds now, Guidance& guidance) {
   AngleReadout out;
   const std::string why = broken_link(state, now);
   if (!why.empty()) {
+    guidance.blank(now);
     out.angle = out.interval = out.distance = out.depth = blank(why);
     return out;
   }
   const NavigationView& n = *state.navigation;
   out.pose_time = std::min(n.harvester_time, n.object_time);
-  out.angle_deg = degrees_from_radians(n.angle);
-  out.angle = number(fmt::format("{:.1f}°", out.angle_deg));
+  const GuidanceState& guided = guidance.update(estimate_of(n), now);
+  if (!guided.angle) {
+    out.angle = out.interval = out.distance = out.depth = blank("the angle is not a number");
+    return out;
+  }
+  out.angle = number(fmt::format("{:.1f}°", degrees_from_radians(*guided.angle)));
   out.interval = interval_readout(n);
-  out.distance = millimetres(n.distance, "no surface point near the tip");
-  out.depth = millimetres(n.depth, "the axis does not meet the surface");
-  out.in_tolerance = out.angle_deg <= tolerance.angle_deg && std::abs(n.distance) <= tolerance.distance_mm;
+  out.distance = millimetres(guided.distance, "no surface point near the tip");
+  out.depth = millimetres(guided.depth, "the axis does not meet the surface");
+  out.in_tolerance = guided.within;
+  out.held = guided.held;
+  out.held_share = guided.held_share;
   return out;
 }
 
@@ -244,6 +269,8 @@ StatusLine daemon_status(const LiveView& live, Nanoseconds now) {
       line.detail = live.daemon.reason.empty() ? fmt::format("pid {}", live.link.pid) : live.daemon.reason;
       if (now - live.time > kBlankAfter) return {line.title, "unknown", "the viewer gets no data", Mood::bad};
       return line;
+    case LinkState::file:
+      return {line.title, "not asked", "a file is shown", Mood::off};
     case LinkState::searching:
       line.word = "not found", line.mood = Mood::off;
       break;

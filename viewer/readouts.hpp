@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/navigate/guidance.hpp"
 #include "viewer/view_state.hpp"
 
 namespace linescope {
@@ -37,17 +38,22 @@ struct AngleReadout {
   Readout depth;              ///< along the harvester's axis
   Nanoseconds pose_time = 0;  ///< of the oldest pose the angle rests on
   bool in_tolerance = false;
-  double angle_deg = 0;  ///< meaningful when not blank
+  bool held = false;      ///< within tolerance for the whole hold time
+  double held_share = 0;  ///< 0..1 of the hold time
 };
 
 /// The limits within which the harvester counts as on target.
 struct Tolerance {
   double angle_deg = 3;
   double distance_mm = 3;
+  bool operator==(const Tolerance&) const = default;
 };
 
-/// AngDif and what belongs to it.
-AngleReadout angle_readout(const ViewState& state, Nanoseconds now, const Tolerance& tolerance);
+/// The rest (hold time, slack, dead-band of the shown numbers) is the guidance's.
+GuidanceOptions guidance_options(const Tolerance& tolerance);
+
+/// AngDif and what belongs to it. `guidance` is told what is shown, and keeps it from flickering.
+AngleReadout angle_readout(const ViewState& state, Nanoseconds now, Guidance& guidance);
 
 /// State of a tool at `now`, aged, with the link's state on top.
 struct StatusLine {

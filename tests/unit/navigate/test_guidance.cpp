@@ -2,7 +2,7 @@
 
 #include "common/units.hpp"
 #include "viewer/navigate/guidance.hpp"
-#include "viewer/navigate/navigation_readout.hpp"
+#include "viewer/navigate/normal_estimate.hpp"
 
 namespace linescope {
 namespace {
@@ -84,68 +84,6 @@ TEST(Guidance, RefusesImpossibleOptions) {
   EXPECT_FALSE(validate(GuidanceOptions{.distance_tolerance = -1}).has_value());
   EXPECT_FALSE(validate(GuidanceOptions{.hold = -1}).has_value());
   EXPECT_FALSE(validate(GuidanceOptions{.angle_dead_band = NAN}).has_value());
-}
-
-class Readout : public testing::Test {
- protected:
-  static constexpr Nanoseconds kNow = 100 * kSecond;
-  NavigationLinks links{{ToolState::ok, kNow}, {ToolState::ok, kNow}, {ToolState::ok, kNow}};
-};
-
-TEST_F(Readout, ShowsWhenEveryLinkIsGood) {
-  const auto r = readout(links, good(2, 0), kNow);
-  ASSERT_TRUE(r.estimate);
-  EXPECT_TRUE(r.blank_text().empty());
-}
-
-TEST_F(Readout, EveryBadStateOfEveryToolInTheChainBlanks) {
-  for (const ToolState state : {ToolState::distorted_field, ToolState::out_of_view, ToolState::stale,
-                                ToolState::missing, ToolState::disconnected, ToolState::never_seen})
-    for (ToolReading NavigationLinks::*tool :
-         {&NavigationLinks::harvester, &NavigationLinks::object, &NavigationLinks::endoscope}) {
-      NavigationLinks bad = links;
-      bad.scanning = true;
-      (bad.*tool).state = state;
-      const auto r = readout(bad, good(2, 0), kNow);
-      EXPECT_FALSE(r.estimate);
-      EXPECT_EQ(r.tool_state, state);
-      EXPECT_EQ(r.blank_text().rfind("-- ", 0), 0u);
-    }
-}
-
-TEST_F(Readout, AGoodPoseGoesStaleAfterTwoTenths) {
-  links.harvester.acquired = kNow - 200 * kMillisecond;
-  EXPECT_TRUE(readout(links, good(2, 0), kNow).estimate);
-  links.harvester.acquired -= 1;
-  const auto r = readout(links, good(2, 0), kNow);
-  EXPECT_FALSE(r.estimate);
-  EXPECT_EQ(r.to_blame, Link::harvester);
-  EXPECT_EQ(r.blank_text(), "-- harvester stale, 0.20 s");
-}
-
-TEST_F(Readout, NamesTheWorstLink) {
-  links.harvester.state = ToolState::distorted_field;
-  links.object.state = ToolState::disconnected;
-  EXPECT_EQ(readout(links, good(2, 0), kNow).to_blame, Link::object);
-}
-
-TEST_F(Readout, TheEndoscopeMayBePutAwayAfterTheScan) {
-  links.endoscope.state = ToolState::disconnected;
-  EXPECT_TRUE(readout(links, good(2, 0), kNow).estimate);
-  links.scanning = true;
-  EXPECT_EQ(readout(links, good(2, 0), kNow).to_blame, Link::endoscope);
-}
-
-TEST_F(Readout, ARefusedEstimateIsBlankWithItsReason) {
-  for (int i = 1; i <= static_cast<int>(NormalReason::no_triangle); ++i) {
-    NormalEstimate e = good(2, 0);
-    e.reason = static_cast<NormalReason>(i);
-    const auto r = readout(links, e, kNow);
-    EXPECT_FALSE(r.estimate);
-    EXPECT_EQ(r.surface_reason, e.reason);
-    EXPECT_EQ(r.blank_text(), "-- " + std::string(name(e.reason)));
-    EXPECT_NE(name(e.reason), "unknown reason");
-  }
 }
 
 }  // namespace

@@ -38,7 +38,10 @@ struct Good {
     s.navigation = std::make_shared<const NavigationView>(navigation);
     return s;
   }
-  AngleReadout readout(Nanoseconds now = kNow) const { return angle_readout(state(), now, {}); }
+  AngleReadout readout(Nanoseconds now = kNow) const {
+    Guidance guidance(guidance_options({}));
+    return angle_readout(state(), now, guidance);
+  }
   void expect_blank(const std::string& reason, Nanoseconds now = kNow) const {
     const AngleReadout r = readout(now);
     for (const Readout& part : {r.angle, r.interval, r.distance, r.depth}) {
