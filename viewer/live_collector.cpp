@@ -133,9 +133,12 @@ void LiveCollector::collect_picture(const SegmentReader& reader, LiveView& view)
 
 void LiveCollector::collect_calibration(const SegmentReader& reader, LiveView& view) {
   if (calibration_) return;
-  std::string text;
+  std::string configuration, text;
+  if (reader.configuration(configuration) == ReadOutcome::ok)
+    view.configuration_text = std::make_shared<const std::string>(std::move(configuration));
   if (reader.calibration(text) != ReadOutcome::ok || text == calibration_text_) return;
   calibration_text_ = text;
+  view.calibration_text = std::make_shared<const std::string>(text);
   auto calibration = calibration_from_text(text, "the daemon's calibration");
   view.calibration_known = calibration.has_value();
   if (!calibration) {

@@ -6,6 +6,7 @@
 
 #include "viewer/panel/scene_widget.hpp"
 #include "viewer/panel/theme.hpp"
+#include "viewer/remembered.hpp"
 #include "viewer/viewer_app.hpp"
 
 namespace linescope {
@@ -23,7 +24,19 @@ bool display_missing() {
   return !set("DISPLAY") && !set("WAYLAND_DISPLAY") && !set("QT_QPA_PLATFORM");
 }
 
-int run(int argc, char** argv, const ViewerOptions& options) {
+/// What the command line says, and where it says nothing what the last run remembered. Scripts and pictures
+/// begin the same every time.
+Remembered with_memory(int argc, char** argv, const ViewerOptions& plain) {
+  if (!plain.remember || !plain.script.empty()) return {plain, {}};
+  Remembered memory = recall();
+  auto read = read_viewer_options(argc, argv, memory.options);
+  if (!read || !std::holds_alternative<ViewerOptions>(*read)) return {plain, {}};
+  return {std::get<ViewerOptions>(*read), memory.window};
+}
+
+int run(int argc, char** argv, const ViewerOptions& plain) {
+  const Remembered settings = with_memory(argc, argv, plain);
+  const ViewerOptions& options = settings.options;
   std::vector<Step> script;
   if (!options.script.empty()) {
     auto loaded = load_script(options.script);
@@ -41,8 +54,10 @@ int run(int argc, char** argv, const ViewerOptions& options) {
   QApplication::setStyle("Fusion");
   QApplication::setPalette(dark_palette());
   set_panel_scale(options.font_scale);
-  ViewerApp viewer(options, std::move(script));
-  return exit_status(viewer.run());
+  ViewerApp viewer(options, std::move(script), settings.window);
+  const ExitCode end = viewer.run();
+  if (options.remember && options.script.empty()) remember({viewer.options(), viewer.preferences()});
+  return exit_status(end);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace linescope {
 namespace {
 
 /// One letter per word: w a word, n a number.
-const std::map<std::string, std::string> kVerbs = {{"wait", "n"},      {"wait-for", "wnn"}, {"do", "w"},
-                                                   {"view", "w"},      {"camepos", "nnnn"}, {"size", "nn"},
-                                                   {"screenshot", "w"}};
+const std::map<std::string, std::string> kVerbs = {{"wait", "n"},       {"wait-for", "wnn"}, {"do", "w"},
+                                                   {"view", "w"},       {"camepos", "nnnn"}, {"size", "nn"},
+                                                   {"screenshot", "w"}, {"load", "w"},       {"save", "w"}};
 
 bool is_number(const std::string& word) {
   std::istringstream in(word);

@@ -6,12 +6,14 @@
 //   SECONDS
 //                                  WHAT: points, lines, triangles (at least VALUE), angle (shown, at most
 //                                  VALUE degrees), link (1: attached, 0: not), blank (1: AngDif blank, 0: a
-//                                  number)
+//                                  number), job (1: longer work goes on, 0: none)
 //   do ACTION                      one of the operator's actions by its name (F1 and docs/operators-guide.md)
 //   view NAME                      front back left right top bottom endoscope
 //   camepos AZ EL ROLL DIST        degrees and mm
 //   size WIDTH HEIGHT              of the window
 //   screenshot FILE                into the folder of --pictures
+//   load PATH                      a saved session or a mesh file
+//   save FOLDER                    the session; the next step waits until load or save is done, or failed
 #pragma once
 
 #include <string>

@@ -22,14 +22,19 @@ std::optional<bool> reached(const QJsonObject& shown, const std::string& what, d
   const QString angle = shown["angle_text"].toString();
   if (what == "blank") return (angle == kBlank) == (value != 0);
   if (what == "angle") return angle != kBlank && angle.leftRef(angle.size() - 1).toDouble() <= value;
+  if (what == "job") return shown["job"].toString().isEmpty() == (value == 0);
   if (what == "link") return (shown["link"].toString() == "attached") == (value != 0);
   return std::nullopt;
 }
 
 }  // namespace
 
-ScriptRunner::ScriptRunner(std::vector<Step> steps, std::string pictures, MainWindow& window)
-    : steps_(steps.begin(), steps.end()), pictures_(std::move(pictures)), window_(window) {}
+ScriptRunner::ScriptRunner(std::vector<Step> steps, std::string pictures, MainWindow& window,
+                           ScriptFiles files)
+    : steps_(steps.begin(), steps.end()),
+      pictures_(std::move(pictures)),
+      window_(window),
+      files_(std::move(files)) {}
 
 ScriptRunner::Progress ScriptRunner::advance(Nanoseconds now) {
   if (!fault_.empty()) return Progress::failed;
@@ -46,7 +51,19 @@ ScriptRunner::Progress ScriptRunner::advance(Nanoseconds now) {
 bool ScriptRunner::finished(const Step& step, Nanoseconds now) {
   if (step.verb == "wait") return seconds_from(now - begun_) >= step.number(0);
   if (step.verb == "wait-for") return wait_for(step, now);
+  if (step.verb == "load" || step.verb == "save") return file_done(step, now);
   carry_out(step);
+  return true;
+}
+
+bool ScriptRunner::file_done(const Step& step, Nanoseconds now) {
+  if (begun_ == now) {
+    (step.verb == "load" ? files_.load : files_.save)(step.words[0]);
+    return false;
+  }
+  const auto result = files_.result();
+  if (!result) return false;
+  if (!*result) fail_at(step, result->error().message);
   return true;
 }
 

@@ -50,9 +50,8 @@ struct SurfaceWorker::Work {
   Nanoseconds made_at = 0;
   bool changed = false;
 
-  void add_line(const HeldLine& line) {
-    mesher->add_line(
-        {.points = line.points, .seen_from = line.seen_from, .time = line.time, .id = line.serial});
+  static void add_line(Mesher& to, const HeldLine& line) {
+    to.add_line({.points = line.points, .seen_from = line.seen_from, .time = line.time, .id = line.serial});
   }
 
   void take(const LineNews& news) {
@@ -61,18 +60,8 @@ struct SurfaceWorker::Work {
       mesher->clear();
       lines.clear();
     }
-    for (const auto& line : news.lines) add_line(*line);
+    for (const auto& line : news.lines) add_line(*mesher, *line);
     lines.insert(lines.end(), news.lines.begin(), news.lines.end());
-  }
-
-  void change(const MesherOptions& wanted) {
-    changed = true;
-    auto made = make_mesher(wanted);
-    fault = made ? std::string() : made.error().message;
-    if (!made) return;
-    options = wanted;
-    mesher = std::move(*made);
-    for (const auto& line : lines) add_line(*line);
   }
 
   std::shared_ptr<const SurfaceView> make() {
@@ -123,6 +112,28 @@ void SurfaceWorker::set_options(const MesherOptions& options) {
   wake_.notify_one();
 }
 
+std::optional<double> SurfaceWorker::changing() const {
+  const double share = change_share_;
+  return share == kNotChanging ? std::nullopt : std::optional<double>(share);
+}
+
+void SurfaceWorker::change(const MesherOptions& wanted) {
+  Work& work = *work_;
+  work.changed = true;
+  give_up_ = false;
+  auto made = make_mesher(wanted);
+  work.fault = made ? std::string() : made.error().message;
+  if (!made) return;
+  for (std::size_t i = 0; i < work.lines.size() && !give_up_; ++i) {
+    Work::add_line(**made, *work.lines[i]);
+    change_share_ = static_cast<double>(i + 1) / static_cast<double>(work.lines.size());
+  }
+  change_share_ = kNotChanging;
+  if (give_up_.exchange(false)) return;
+  work.options = wanted;
+  work.mesher = std::move(*made);
+}
+
 void SurfaceWorker::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::vector<LineNews> news;
@@ -140,7 +151,7 @@ void SurfaceWorker::run(const std::stop_token& stop) {
       options.swap(new_options_);
     }
     for (const LineNews& n : news) work_->take(n);
-    if (options) work_->change(*options);
+    if (options) change(*options);
     if (work_->changed && monotonic_now() - work_->made_at >= kMeshEvery) sink_(work_->make());
   }
 }

@@ -1,10 +1,12 @@
 // The thread that makes the surface: lines in, mesh and grid out, at its own pace. Nobody waits for it.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "viewer/surface/mesher_options.hpp"
@@ -29,15 +31,23 @@ class SurfaceWorker {
   /// Makes the surface anew with other options, from all lines. Bad options: the former surface stays and
   /// SurfaceView::fault says why.
   void set_options(const MesherOptions& options);
+  /// How much of the surface with other options is made, 0..1; nothing: none is being made. Any thread.
+  std::optional<double> changing() const;
+  /// The surface and the options of before set_options stay, if it is still going on. Any thread.
+  void give_up_change() { give_up_ = true; }
 
  private:
   struct Work;
+  static constexpr double kNotChanging = -1;
+  void change(const MesherOptions& wanted);
   void run(const std::stop_token& stop);
 
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::vector<LineNews> inbox_;
   std::unique_ptr<MesherOptions> new_options_;
+  std::atomic<double> change_share_{kNotChanging};
+  std::atomic<bool> give_up_{false};
   Sink sink_;
   std::unique_ptr<Work> work_;
   std::jthread thread_;

@@ -30,6 +30,7 @@ enum class LinkState : std::uint8_t {
   silent,   ///< the heartbeat stopped
   ended,    ///< the daemon left in good order, or its segment was removed
   refused,  ///< there is a segment, but it cannot be used
+  file,     ///< a saved session or a mesh file is shown: no daemon is looked for
 };
 
 struct LinkView {
@@ -131,6 +132,8 @@ struct LiveView {
   std::string calibration_name;
   std::string calibration_trouble;  ///< why the daemon's calibration cannot be used
   HarvesterCalibration harvester;
+  /// As the daemon published them; null: not known.
+  std::shared_ptr<const std::string> configuration_text, calibration_text;
   std::shared_ptr<const CameraPicture> picture;
   std::shared_ptr<const DiagnosticsView> diagnostics;
 

@@ -58,6 +58,15 @@ void declare_window(CLI::App& app, ViewerOptions& o) {
          "Size of the window; default 1280x720")
       ->type_name("WxH");
   app.add_option("--font-scale", o.font_scale, "Size of text and controls, 1 is normal")->type_name("X");
+  app.add_option(
+         "--load", o.load,
+         "Show a saved session (its folder) or a mesh file (.ply, .vtp, .stl, .obj), without any daemon")
+      ->type_name("PATH");
+  app.add_option("--sessions", o.sessions, "Folder in which sessions are kept (F3); default here")
+      ->type_name("DIR");
+  app.add_flag_callback(
+      "--no-settings", [&o] { o.remember = false; },
+      "Neither use what the last run remembered nor remember this one; scripts never do");
   app.add_option("--screenshot", o.screenshot, "Write a picture of the window before the end")
       ->type_name("FILE");
   app.add_option("--quit-after", o.quit_after_s, "End after this time")->type_name("SECONDS");
@@ -83,10 +92,10 @@ Result<void> validate(const ViewerOptions& o) {
   return {};
 }
 
-tl::expected<std::variant<ViewerOptions, Printed>, Refusal> read_viewer_options(int argc,
-                                                                                const char* const* argv) {
+tl::expected<std::variant<ViewerOptions, Printed>, Refusal> read_viewer_options(
+    int argc, const char* const* argv, const ViewerOptions& defaults) {
   using Read = std::variant<ViewerOptions, Printed>;
-  ViewerOptions options;
+  ViewerOptions options = defaults;
   CLI::App app(
       "linescope-viewer: shows the scanned surface and the harvester's angle to it. Not for clinical use.",
       "linescope-viewer");

@@ -21,6 +21,9 @@ struct ViewerOptions {
   std::string screenshot;      ///< file, written before the end; empty: none
   std::string script;          ///< file with steps; empty: none
   std::string pictures = ".";  ///< folder for the pictures of a script
+  std::string load;            ///< a session's folder or a mesh file: shown without any daemon; empty: none
+  std::string sessions = ".";  ///< folder in which sessions are kept
+  bool remember = true;        ///< settings from the last run, and for the next
   std::string state_json;      ///< file kept up to date with what is displayed; empty: none
 };
 
@@ -33,7 +36,8 @@ struct Printed {
 };
 
 /// The options; or what to print; or one sentence that says what is wrong.
-tl::expected<std::variant<ViewerOptions, Printed>, Refusal> read_viewer_options(int argc,
-                                                                                const char* const* argv);
+/// `defaults`: what the command line does not say.
+tl::expected<std::variant<ViewerOptions, Printed>, Refusal> read_viewer_options(
+    int argc, const char* const* argv, const ViewerOptions& defaults = {});
 
 }  // namespace linescope

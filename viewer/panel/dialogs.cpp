@@ -51,9 +51,9 @@ std::string summary(const ViewState& state, const DisplayFigures& d) {
   std::string text = fmt::format(
       "linescope-viewer {}  (not for clinical use)\nsegment   {}\ndaemon    {} pid {} session {:x}\n",
       kVersion, live.link.segment, live.link.daemon, live.link.pid, live.link.session);
-  text +=
-      fmt::format("graphics  {}\ndisplay   late {:.1f} / {:.1f} ms, drawing {:.1f} / {:.1f} ms (p50 / p95)\n",
-                  d.graphics, d.late_p50_ms, d.late_p95_ms, d.draw_p50_ms, d.draw_p95_ms);
+  text += fmt::format(
+      "graphics  {}\ndisplay   events wait {:.1f} / {:.1f} ms, drawing {:.1f} / {:.1f} ms (p50 / p95)\n",
+      d.graphics, d.wait_p50_ms, d.wait_p95_ms, d.draw_p50_ms, d.draw_p95_ms);
   text += fmt::format("scan      {}\nsurface   {}, t = {} mm, {:.1f} ms, {} points refused\n",
                       scan_summary(live), state.surface->method, state.surface->interval,
                       milliseconds_from(state.surface->took), state.surface->points_refused);
@@ -112,18 +112,26 @@ void DiagnosticsDialog::show_state(const ViewState& state, const DisplayFigures&
                                    const QStringList& log) {
   set_text(*summary_, QString::fromStdString(summary(state, display)));
   set_text(*log_, log.join('\n'));
+  std::vector<StageLatency> stages = display.stages;
+  if (state.live->diagnostics)
+    stages.insert(stages.begin(), state.live->diagnostics->latencies.begin(),
+                  state.live->diagnostics->latencies.end());
+  show_latencies(stages);
   if (!state.live->diagnostics) return;
   const DiagnosticsView& figures = *state.live->diagnostics;
-  latencies_->setRowCount(static_cast<int>(figures.latencies.size()));
-  for (int i = 0; i < latencies_->rowCount(); ++i) {
-    const StageLatency& l = figures.latencies[static_cast<std::size_t>(i)];
-    put(*latencies_, i,
-        {QString::fromStdString(l.name), ms(l.p50), ms(l.p95), ms(l.max), QString::number(l.count)});
-  }
   counters_->setRowCount(static_cast<int>(figures.counters.size()));
   for (int i = 0; i < counters_->rowCount(); ++i) {
     const NamedCount& c = figures.counters[static_cast<std::size_t>(i)];
     put(*counters_, i, {QString::fromStdString(c.name), QString::fromStdString(grouped(c.value))});
+  }
+}
+
+void DiagnosticsDialog::show_latencies(const std::vector<StageLatency>& rows) {
+  latencies_->setRowCount(static_cast<int>(rows.size()));
+  for (int i = 0; i < latencies_->rowCount(); ++i) {
+    const StageLatency& l = rows[static_cast<std::size_t>(i)];
+    put(*latencies_, i,
+        {QString::fromStdString(l.name), ms(l.p50), ms(l.p95), ms(l.max), QString::number(l.count)});
   }
 }
 

@@ -4,7 +4,6 @@
 #include <vtkCamera.h>
 
 #include <Eigen/Geometry>
-#include <QResizeEvent>
 #include <QShortcut>
 #include <QStackedWidget>
 #include <algorithm>
@@ -23,14 +22,14 @@ namespace linescope {
 namespace {
 
 constexpr int kSideWidth = 348;
-constexpr double kSideShare = 0.27;  ///< of the window's width
+constexpr int kSideShare = 27, kViewsShare = 73;  ///< of the window's width
 constexpr double kSmallNumerals = 44, kLargeNumerals = 94;
 constexpr int kMessagesKept = 500;
 
 }  // namespace
 
 MainWindow::MainWindow(WindowHooks hooks, const MesherOptions& mesher, NormalChoice normal)
-    : hooks_(std::move(hooks)), mesher_(mesher), normal_(normal) {
+    : hooks_(std::move(hooks)), mesher_(mesher), normal_(normal), guidance_(guidance_options(tolerance_)) {
   setWindowTitle("linescope · not for clinical use");
   setStyleSheet(style_sheet(panel_scale()));
   build();
@@ -53,14 +52,14 @@ void MainWindow::build() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(0);
   top_ = new TopBar([this](OperatorAction action) { act(action); }, central);
-  banner_ = new BannerBar(central);
+  banner_ = new BannerBar([this] { act(OperatorAction::cancel); }, central);
   rows->addWidget(top_);
   rows->addWidget(banner_);
   auto* middle = new QHBoxLayout;
   middle->setContentsMargins(0, 0, scaled(10), 0);
   middle->setSpacing(scaled(10));
-  middle->addWidget(build_views(), 1);
-  middle->addWidget(build_side());
+  middle->addWidget(build_views(), kViewsShare);
+  middle->addWidget(build_side(), kSideShare);
   rows->addLayout(middle, 1);
   rows->addWidget(build_foot());
   setCentralWidget(central);
@@ -72,7 +71,7 @@ QWidget* MainWindow::build_views() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(0);
   views_ = new SceneWidget(box);
-  scene().mouse().clicked = [this](int x, int y) { measure_click(x, y); };
+  scene().mouse().clicked = [this](int x, int y) { clicked(x, y); };
   strip_ = new ViewStrip(
       {[this](const ViewPose& pose) { scene().follow_harvester(false), scene().set_view_pose(pose); },
        [this](NamedView view) { scene().follow_harvester(false), scene().look_from(view); },
@@ -85,8 +84,9 @@ QWidget* MainWindow::build_views() {
 
 QWidget* MainWindow::build_side() {
   auto* side = new QWidget(this);
-  side_ = side;
-  side->setFixedWidth(scaled(kSideWidth));
+  // A larger window gives the picture and the bullseye their share.
+  side->setMinimumWidth(scaled(kSideWidth));
+  side->setMaximumWidth(scaled(1.6 * kSideWidth));
   auto* rows = new QVBoxLayout(side);
   rows->setContentsMargins(0, scaled(8), 0, scaled(8));
   rows->setSpacing(scaled(8));
@@ -100,7 +100,9 @@ QWidget* MainWindow::build_side() {
                                      colour_ = what;
                                      scene().surface().colour_by(what, scene().cloud().outward());
                                      scene().cloud().colour_by(what, scene().cloud().outward());
-                                   }},
+                                   },
+                                   {[this] { act(OperatorAction::evaluate); },
+                                    [this] { act(OperatorAction::region); }, [this] { mark_region(); }}},
                                   mesher_, side);
   navigate_page_ =
       new NavigatePage([this](NormalChoice choice) { hooks_.set_normal(choice); }, normal_, side);
@@ -121,13 +123,6 @@ QWidget* MainWindow::build_foot() {
   return foot;
 }
 
-void MainWindow::resizeEvent(QResizeEvent* event) {
-  QMainWindow::resizeEvent(event);
-  // A larger window gives the picture and the bullseye their share.
-  side_->setFixedWidth(
-      std::clamp(static_cast<int>(kSideShare * width()), scaled(kSideWidth), scaled(1.6 * kSideWidth)));
-}
-
 void MainWindow::add_keys() {
   for (const ActionInfo& i : operator_actions()) {
     auto* key = new QShortcut(QKeySequence(i.key), this);
@@ -140,6 +135,7 @@ void MainWindow::set_moment(Moment moment) {
   moment_ = moment;
   pages_->setCurrentIndex(static_cast<int>(moment));
   angle_->set_numeral_size(moment == Moment::navigate ? kLargeNumerals : kSmallNumerals);
+  angle_->setVisible(moment != Moment::surface);  // there the room belongs to figures of the surface
   top_->show_moment(moment);
   scene().request_picture();
 }
@@ -158,11 +154,14 @@ void MainWindow::show_state(const ViewState& state, const std::vector<LineNews>&
   state_ = state;
   show_news(news);
   if (new_surface) show_surface(state);
-  const AngleReadout angle = angle_readout(state, now, navigate_page_->tolerance());
+  if (const Tolerance wanted = navigate_page_->tolerance(); wanted != tolerance_)
+    guidance_ = Guidance(guidance_options(tolerance_ = wanted));
+  const AngleReadout angle = angle_readout(state, now, guidance_);
   shown_angle_ = angle;
   shown_at_ = now;
   show_guidance(state, angle, now);
   show_texts(state, angle, now);
+  note_shown(state, angle);
   // After a picture that took long, events and the daemon get their turn: at most a third of the time goes
   // into drawing.
   if (since_draw_.isValid() && static_cast<double>(since_draw_.elapsed()) < 2 * last_draw_ms_) return;
@@ -204,7 +203,7 @@ void MainWindow::show_guidance(const ViewState& state, const AngleReadout& angle
   input.normal_direction = state.navigation->normal;
   input.on_target = angle.in_tolerance;
   scene().set_guidance(input);
-  navigate_page_->show_state(angle, tilts(state, angle), *state.navigation, now);
+  navigate_page_->show_state(angle, tilts(state, angle), *state.navigation);
 }
 
 std::optional<BullseyeReading> MainWindow::tilts(const ViewState& state, const AngleReadout& angle) const {
@@ -229,7 +228,7 @@ void MainWindow::show_texts(const ViewState& state, const AngleReadout& angle, N
   const LiveView& live = *state.live;
   const bool attached = live.link.state == LinkState::attached;
   angle_->show_angle(angle);
-  top_->show_scanning(live.scan.scanning && attached, attached);
+  top_->show_scanning(live.scan.scanning && attached, attached, live.link.state == LinkState::file);
   banner_->show_banner(banner(live, now), QString::fromStdString(scan_summary(live)));
   const StatusLine lines[] = {
       daemon_status(live, now), camera_status(live, now), tool_status(live, ToolRole::endoscope, now),
@@ -240,11 +239,30 @@ void MainWindow::show_texts(const ViewState& state, const AngleReadout& angle, N
   scene().set_note(live.held_in == HeldIn::object ? "object's frame (sensor 2)" : "tracker's frame");
   strip_->show_pose(scene().view_pose(), scene().layout(), scene().following(),
                     scene().harvester_view_flipped());
-  if (diagnostics_ != nullptr && diagnostics_->isVisible())
-    diagnostics_->show_state(state,
-                             {late_.percentile(0.5), late_.percentile(0.95), draw_.percentile(0.5),
-                              draw_.percentile(0.95), views_->graphics()},
-                             log_);
+  if (diagnostics_ != nullptr && diagnostics_->isVisible()) diagnostics_->show_state(state, figures(), log_);
+}
+
+DisplayFigures MainWindow::figures() const {
+  return {wait_.percentile(0.5),  wait_.percentile(0.95), draw_.percentile(0.5),
+          draw_.percentile(0.95), views_->graphics(),     stages()};
+}
+
+void MainWindow::note_shown(const ViewState& state, const AngleReadout& angle) {
+  const LiveView& live = *state.live;
+  if (live.link.state != LinkState::attached) return;
+  const Nanoseconds now = monotonic_now();
+  if (!angle.angle.blank()) pose_shown_.shown(angle.pose_time, now);
+  if (live.scan.newest.time > 0) line_shown_.shown(live.scan.newest.time, now);
+  if (live.picture) picture_shown_.shown(live.picture->time, now);
+}
+
+std::vector<StageLatency> MainWindow::stages() const {
+  const auto row = [](const char* name, const DisplayLatency& latency) {
+    const LatencySummary s = latency.summary();
+    return StageLatency{name, s.count, s.p50, s.p95, s.max};
+  };
+  return {row("tracker sample to screen", pose_shown_), row("laser line to screen", line_shown_),
+          row("camera picture to screen", picture_shown_)};
 }
 
 void MainWindow::show_notice(const Notice& notice) {

@@ -1,6 +1,5 @@
 // What the operator's actions do.
 #include <QApplication>
-#include <QDateTime>
 
 #include "common/units.hpp"
 #include "viewer/panel/banner_bar.hpp"
@@ -41,10 +40,13 @@ void MainWindow::act(OperatorAction action) {
   if (action >= OperatorAction::layout_one && action <= OperatorAction::flip_harvester)
     return act_on_views(action);
   if (action >= OperatorAction::turn_left && action <= OperatorAction::farther) return move_view(action);
+  if (action >= OperatorAction::measure && action <= OperatorAction::save_picture)
+    return act_on_files(action);
   act_on_window(action);
 }
 
 void MainWindow::scan_or_stop() {
+  if (state_.live->link.state == LinkState::file) return hooks_.go_live();
   const bool scanning = state_.live->scan.scanning;
   hooks_.command(scanning ? CommandKind::stop : CommandKind::start);
   if (scanning) return;
@@ -53,6 +55,8 @@ void MainWindow::scan_or_stop() {
 }
 
 void MainWindow::clear() {
+  if (state_.live->link.state == LinkState::file) return hooks_.go_live();
+  show_other_scan(surface_page_->options());
   hooks_.forget_scan();
   if (state_.live->link.state == LinkState::attached) hooks_.command(CommandKind::clear);
 }
@@ -137,17 +141,6 @@ void MainWindow::move_view(OperatorAction action) {
 
 void MainWindow::act_on_window(OperatorAction action) {
   switch (action) {
-    case OperatorAction::measure:
-      measuring_ = true;
-      measure_from_.reset();
-      set_moment(Moment::surface);
-      return surface_page_->show_measurement("click the first point in the free view");
-    case OperatorAction::save_picture: {
-      const QString file = QDateTime::currentDateTime().toString("'linescope-'yyyyMMdd-HHmmss'.png'");
-      const auto saved = save_picture(file);
-      return show_notice({monotonic_now(), saved ? Notice::Kind::information : Notice::Kind::refusal,
-                          saved ? "Picture saved as " + file.toStdString() : saved.error().message});
-    }
     case OperatorAction::diagnostics:
       if (diagnostics_ == nullptr) diagnostics_ = new DiagnosticsDialog(this);
       return diagnostics_->show();
@@ -162,26 +155,6 @@ void MainWindow::act_on_window(OperatorAction action) {
     default:
       break;
   }
-}
-
-void MainWindow::measure_click(int x, int y) {
-  if (!measuring_) return;
-  const auto point = scene().pick(x, y);
-  if (!point) return surface_page_->show_measurement("no point there: click on the surface");
-  if (!measure_from_) {
-    measure_from_ = point;
-    return surface_page_->show_measurement("click the second point");
-  }
-  surface_page_->show_measurement(QString("%1 mm").arg((*point - *measure_from_).norm(), 0, 'f', 2));
-  measuring_ = false;
-}
-
-Result<void> MainWindow::save_picture(const QString& file) {
-  scene().request_picture();
-  views_->draw_if_needed();
-  if (grab().save(file)) return {};
-  return fail(ErrorCode::unreadable,
-              "picture " + file.toStdString() + " cannot be written: is the folder there and writable?");
 }
 
 }  // namespace linescope

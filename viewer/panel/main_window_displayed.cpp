@@ -2,8 +2,10 @@
 #include <QJsonArray>
 #include <QLabel>
 
+#include "common/units.hpp"
 #include "viewer/panel/angle_display.hpp"
 #include "viewer/panel/banner_bar.hpp"
+#include "viewer/panel/dialogs.hpp"
 #include "viewer/panel/main_window.hpp"
 #include "viewer/panel/navigate_page.hpp"
 #include "viewer/panel/scene_widget.hpp"
@@ -17,6 +19,10 @@ QJsonObject json(const StatusLine& line) {
 
 QJsonObject json(const Readout& readout) {
   return {{"text", QString::fromStdString(readout.text)}, {"reason", QString::fromStdString(readout.reason)}};
+}
+
+QJsonObject json(const QRect& r) {
+  return {{"x", r.x()}, {"y", r.y()}, {"width", r.width()}, {"height", r.height()}};
 }
 
 double number(std::uint64_t value) {
@@ -35,6 +41,8 @@ const char* word(LinkState state) {
       return "ended";
     case LinkState::refused:
       return "refused";
+    case LinkState::file:
+      return "file";
   }
   return "?";
 }
@@ -84,9 +92,32 @@ QJsonObject MainWindow::displayed_state() const {
       {"normal_visible", scene.guidance().normal_visible()},
       {"harvester_visible", scene.guidance().harvester_visible()},
       {"harvester_ghosted", scene.guidance().harvester_ghosted()},
+      {"wanted_interval_mm", surface_page_->options().interval},
+      {"view_area", json(QRect(views_->mapTo(this, QPoint()), views_->size()))},
+      {"measurement", surface_page_->measurement()},
+      {"measured_mm", measured_.empty() ? 0 : measured_.back()},
+      {"evaluation", surface_page_->evaluation().text()},
+      {"evaluation_shape", name(surface_page_->evaluation().request().shape)},
+      {"region_all", surface_page_->evaluation().request().region.all},
+      {"region_visible", scene.marks().region_visible()},
+      {"job", job_ ? QString::fromStdString(job_->title) : QString()},
+      {"held", angle.held},
+      {"sample_to_screen_ms", milliseconds_from(pose_shown_.summary().p95)},
+      {"layout", static_cast<int>(scene.layout())},
+      {"colour", name(surface_page_->colouring())},
+      {"smooth", surface_page_->smooth()},
+      {"flipped", scene.harvester_view_flipped()},
+      {"following", scene.following()},
+      {"azimuth_deg", degrees_from_radians(scene.view_pose().azimuth)},
+      {"elevation_deg", degrees_from_radians(scene.view_pose().elevation)},
+      {"roll_deg", degrees_from_radians(scene.view_pose().roll)},
+      {"distance_mm", scene.view_pose().distance},
+      {"diagnostics_open", diagnostics_ != nullptr && diagnostics_->isVisible()},
+      {"keys_open", shortcuts_ != nullptr && shortcuts_->isVisible()},
+      {"full_screen", isFullScreen()},
       {"views", static_cast<int>(scene.visible_views().size())},
       {"shown", static_cast<int>(surface_page_->shown())},
-      {"late_p95_ms", late_.percentile(0.95)},
+      {"event_wait_p95_ms", wait_.percentile(0.95)},
       {"draw_p95_ms", draw_.percentile(0.95)},
       {"graphics", QString::fromStdString(views_->graphics())},
   };

@@ -13,8 +13,6 @@
 namespace linescope {
 namespace {
 
-constexpr double kHoldSeconds = 1.0;  ///< within tolerance this long counts as held
-
 QDoubleSpinBox* limit_box(QWidget* parent, double value, double most, const char* suffix, const char* tip) {
   auto* box = new QDoubleSpinBox(parent);
   box->setRange(0.5, most);
@@ -54,7 +52,7 @@ void NavigatePage::add_tolerance() {
   angle_limit_ = limit_box(this, 3, 20, "°", "The harvester is on target up to this angle");
   distance_limit_ = limit_box(this, 3, 20, " mm", "... and up to this distance of its tip from the surface");
   sound_ = new QCheckBox("Sound", this);
-  sound_->setToolTip("A quiet sound when the harvester was held within the tolerance for a second");
+  sound_->setToolTip("A quiet sound when the harvester was held within the tolerance for half a second");
   row->addWidget(label);
   row->addWidget(angle_limit_);
   row->addWidget(distance_limit_);
@@ -66,22 +64,29 @@ Tolerance NavigatePage::tolerance() const {
   return {angle_limit_->value(), distance_limit_->value()};
 }
 
-void NavigatePage::update_hold(bool in_tolerance, Nanoseconds now) {
-  if (!in_tolerance)
-    in_since_ = 0, told_ = false;
-  else if (in_since_ == 0)
-    in_since_ = now;
-  held_s_ = in_since_ == 0 ? 0 : seconds_from(now - in_since_);
-  const bool held = held_s_ >= kHoldSeconds;
-  held_->set_text(in_since_ == 0
-                      ? QStringLiteral("– –")
-                      : QString("%1%2 s").arg(held ? mark(Mood::good) + " " : "").arg(held_s_, 0, 'f', 1));
-  held_->set_colour(held ? colour(Mood::good) : colour(palette::kText));
-  if (held && !std::exchange(told_, true) && sound_->isChecked()) QApplication::beep();
+bool NavigatePage::sound() const {
+  return sound_->isChecked();
+}
+
+void NavigatePage::set_preferences(const Tolerance& tolerance, bool sound) {
+  angle_limit_->setValue(tolerance.angle_deg);
+  distance_limit_->setValue(tolerance.distance_mm);
+  sound_->setChecked(sound);
+}
+
+void NavigatePage::show_hold(const AngleReadout& angle) {
+  held_->set_text(angle.held           ? mark(Mood::good) + " held"
+                  : angle.in_tolerance ? QString("in tolerance, %1 %").arg(100 * angle.held_share, 0, 'f', 0)
+                                       : QStringLiteral("– –"));
+  held_->set_colour(angle.held ? colour(Mood::good) : colour(palette::kText));
+  if (!angle.held)
+    told_ = false;
+  else if (!std::exchange(told_, true) && sound_->isChecked())
+    QApplication::beep();
 }
 
 void NavigatePage::show_state(const AngleReadout& angle, const std::optional<BullseyeReading>& tilts,
-                              const NavigationView& navigation, Nanoseconds now) {
+                              const NavigationView& navigation) {
   bullseye_->show_reading(tilts);
   distance_->set_text(text_of(angle.distance));
   depth_->set_text(text_of(angle.depth));
@@ -94,7 +99,7 @@ void NavigatePage::show_state(const AngleReadout& angle, const std::optional<Bul
                          : QString::fromStdString(fmt::format(
                                "{} points, {} lines", grouped(static_cast<std::uint64_t>(navigation.points)),
                                navigation.lines)));
-  update_hold(!blank && angle.in_tolerance, now);
+  show_hold(angle);
 }
 
 }  // namespace linescope

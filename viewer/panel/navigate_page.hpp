@@ -20,22 +20,20 @@ class NavigatePage : public SidePage {
 
   /// `tilts`: right and up, degrees; nothing when the angle is blank.
   void show_state(const AngleReadout& angle, const std::optional<BullseyeReading>& tilts,
-                  const NavigationView& navigation, Nanoseconds now);
+                  const NavigationView& navigation);
   Tolerance tolerance() const;
-  /// Seconds within tolerance without a break.
-  double held_s() const { return held_s_; }
+  bool sound() const;
+  void set_preferences(const Tolerance& tolerance, bool sound);
 
  private:
   void add_tolerance();
-  void update_hold(bool in_tolerance, Nanoseconds now);
+  void show_hold(const AngleReadout& angle);
 
   Bullseye* bullseye_;
   ElidedLabel *distance_, *depth_, *uncertainty_, *basis_, *held_;
   QDoubleSpinBox *angle_limit_, *distance_limit_;
   QComboBox* method_;
   QCheckBox* sound_;
-  Nanoseconds in_since_ = 0;
-  double held_s_ = 0;
   bool told_ = false;
 };
 

@@ -34,11 +34,11 @@ SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* par
   made_of_ = add_row("Made of");
   size_ = add_row("Size");
   area_ = add_row("Area");
-  time_ = add_row("Made in");
   drawn_ = add_row("Drawn");
-  add_heading("Measure");
   measured_ = add_row("Distance");
   show_measurement("press D, then click two points");
+  evaluation_ = new EvaluationBox(hooks_.evaluation, this);
+  column_->addWidget(evaluation_);
   column_->addStretch(1);
   set_shown(Shown::points);
 }
@@ -88,19 +88,18 @@ void SurfacePage::add_making() {
 }
 
 void SurfacePage::add_colours() {
-  normals_ = new QCheckBox("Shade with normals", this);
+  normals_ = new QCheckBox("Normals", this);
   normals_->setChecked(true);
   normals_->setToolTip(tooltip(OperatorAction::normals));
   colour_ = new QComboBox(this);
-  for (const ColourBy what : kColours) colour_->addItem(name(what), static_cast<int>(what));
+  for (const ColourBy what : kColours)
+    colour_->addItem(QString("Colour: %1").arg(QString(name(what)).toLower()), static_cast<int>(what));
   colour_->setToolTip(
       "Colour of points and surface; age exists for points only, coverage for the surface only");
   auto* row = new QHBoxLayout;
-  auto* label = new QLabel("Colour by", this);
-  label->setFixedWidth(scaled(92));
-  row->addWidget(label);
+  normals_->setFixedWidth(scaled(92));
+  row->addWidget(normals_);
   row->addWidget(colour_, 1);
-  column_->addWidget(normals_);
   column_->addLayout(row);
   connect(normals_, &QCheckBox::toggled, this, [this](bool on) { hooks_.normals(on); });
   connect(colour_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
@@ -134,13 +133,34 @@ void SurfacePage::toggle_normals() {
   normals_->toggle();
 }
 
+void SurfacePage::set_options(const MesherOptions& options) {
+  const QSignalBlocker quiet_method(method_), quiet_interval(interval_);
+  options_ = options;
+  method_->setCurrentIndex(method_->findData(static_cast<int>(options.method)));
+  interval_->setValue(options.interval);
+}
+
+void SurfacePage::set_colouring(ColourBy what, bool smooth) {
+  colour_->setCurrentIndex(colour_->findData(static_cast<int>(what)));
+  normals_->setChecked(smooth);
+}
+
+ColourBy SurfacePage::colouring() const {
+  return static_cast<ColourBy>(colour_->currentData().toInt());
+}
+
+bool SurfacePage::smooth() const {
+  return normals_->isChecked();
+}
+
 void SurfacePage::show_measurement(const QString& text) {
   measured_->set_text(text);
 }
 
 void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
   const SurfaceView& s = *state.surface;
-  drawn_->set_text(QString::fromStdString(drawn));
+  drawn_->set_text(QString::fromStdString(
+      drawn + (s.took > 0 ? fmt::format(" · made in {:.1f} ms", milliseconds_from(s.took)) : "")));
   if (!s.fault.empty()) return made_of_->set_text(QString::fromStdString(s.fault));
   made_of_->set_text(QString::fromStdString(
       fmt::format("{} points, {} lines{}", grouped(s.points), grouped(s.lines),
@@ -153,7 +173,6 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
   area_->set_text(
       any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
           : QStringLiteral("– –"));
-  time_->set_text(any ? QString("%1 ms").arg(milliseconds_from(s.took), 0, 'f', 1) : QStringLiteral("– –"));
 }
 
 }  // namespace linescope

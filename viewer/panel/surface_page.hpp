@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "viewer/panel/side_page.hpp"
+#include "viewer/panel/evaluation_box.hpp"
 #include "viewer/scene/colour_scale.hpp"
 #include "viewer/surface/mesher_options.hpp"
 
@@ -25,6 +25,7 @@ class SurfacePage : public SidePage {
     std::function<void(const MesherOptions&)> make;
     std::function<void(bool)> normals;
     std::function<void(ColourBy)> colour;
+    EvaluationBox::Hooks evaluation;
   };
   SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* parent);
 
@@ -36,9 +37,17 @@ class SurfacePage : public SidePage {
   void toggle_normals();
   void show_measurement(const QString& text);
 
+  /// The surface was made otherwise than here: a file.
+  void set_options(const MesherOptions& options);
+  void set_colouring(ColourBy what, bool smooth);
+  ColourBy colouring() const;
+  bool smooth() const;
+
+  EvaluationBox& evaluation() { return *evaluation_; }
+  const EvaluationBox& evaluation() const { return *evaluation_; }
+  QString measurement() const { return measured_->text(); }
   Shown shown() const { return shown_; }
   const MesherOptions& options() const { return options_; }
-  QDoubleSpinBox* interval_box() const { return interval_; }
 
  private:
   void add_shown();
@@ -53,7 +62,8 @@ class SurfacePage : public SidePage {
   QComboBox *method_, *colour_;
   QDoubleSpinBox* interval_;
   QCheckBox* normals_;
-  ElidedLabel *made_of_, *size_, *area_, *time_, *drawn_, *measured_;
+  ElidedLabel *made_of_, *size_, *area_, *drawn_, *measured_;
+  EvaluationBox* evaluation_;
 };
 
 }  // namespace linescope

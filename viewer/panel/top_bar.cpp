@@ -37,9 +37,12 @@ TopBar::TopBar(std::function<void(OperatorAction)> act, QWidget* parent)
   disclaimer->setToolTip("A research system. It is not a medical device.");
   row->addWidget(disclaimer);
   row->addSpacing(scaled(8));
+  row->addWidget(add(OperatorAction::save_session, "Save", false));
+  row->addWidget(add(OperatorAction::open_session, "Open", false));
   row->addWidget(add(OperatorAction::diagnostics, "Diagnostics", false));
   row->addWidget(add(OperatorAction::shortcuts, "Keys", false));
-  for (const auto small : {OperatorAction::diagnostics, OperatorAction::shortcuts})
+  for (const auto small : {OperatorAction::save_session, OperatorAction::open_session,
+                           OperatorAction::diagnostics, OperatorAction::shortcuts})
     buttons_[small]->setObjectName("small");
 }
 
@@ -60,11 +63,11 @@ void TopBar::show_moment(Moment moment) {
   buttons_[OperatorAction::navigate]->setChecked(moment == Moment::navigate);
 }
 
-void TopBar::show_scanning(bool scanning, bool attached) {
+void TopBar::show_scanning(bool scanning, bool attached, bool file) {
   QPushButton& scan = *buttons_[OperatorAction::scan];
   scan.setChecked(scanning);
-  scan.setText(scanning ? "Stop" : "Scan");
-  scan.setEnabled(attached);
+  scan.setText(file ? "Live" : scanning ? "Stop" : "Scan");
+  scan.setEnabled(attached || file);
   buttons_[OperatorAction::undo_sweep]->setEnabled(attached);
 }
 

@@ -20,7 +20,8 @@ class TopBar : public QFrame {
   TopBar(std::function<void(OperatorAction)> act, QWidget* parent);
 
   void show_moment(Moment moment);
-  void show_scanning(bool scanning, bool attached);
+  /// `file`: a file is shown, the first button goes back to the daemon.
+  void show_scanning(bool scanning, bool attached, bool file);
 
   QPushButton* button(OperatorAction action) const { return buttons_.at(action); }
 

@@ -21,6 +21,7 @@ constexpr double kConeLength = 6.0;  ///< tube begins that far behind the tip, s
 constexpr double kArrowLength = 30.0;
 constexpr double kAxisAhead = 15.0;  ///< the axis is drawn through the tip, towards the surface
 constexpr double kGhost = 0.3, kSeeThrough = 0.25;
+constexpr double kTubePresent = 0.45, kTubeGhost = 0.15;  ///< what lies behind the tube matters more than it
 
 /// Puts +x of the source along `direction` with its origin at `origin`.
 vtkSmartPointer<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -95,12 +96,13 @@ void GuidanceLayer::set_harvester(const GuidanceInput& input) {
     actor->GetProperty()->SetOpacity(input.harvester == Presence::ghost ? kGhost : 1.0);
   }
   if (!visible) return;
-  if (see_through_ && input.harvester == Presence::present) tube_->GetProperty()->SetOpacity(kSeeThrough);
+  const bool present = input.harvester == Presence::present;
+  tube_->GetProperty()->SetOpacity(!present ? kTubeGhost : see_through_ ? kSeeThrough : kTubePresent);
   const Rgb& colour = input.on_target ? palette::kOnTarget : palette::kHarvester;
   tube_->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   tube_->SetUserMatrix(placement(input.tip + kConeLength * input.axis, input.axis, kTubeLength, kTubeRadius));
   axis_line_->SetUserMatrix(
-      placement(input.tip - kAxisAhead * input.axis, input.axis, kAxisAhead + kConeLength, 0.25));
+      placement(input.tip - kAxisAhead * input.axis, input.axis, kAxisAhead + kConeLength + kTubeLength, 0.25));
   tip_->SetUserMatrix(placement(input.tip, input.axis, kTipRadius, kTipRadius));
 }
 

@@ -73,6 +73,7 @@ Scene::Scene(vtkRenderWindow& window) : window_(window) {
   };
   cloud_ = std::make_unique<CloudLayer>(add);
   surface_ = std::make_unique<SurfaceLayer>(add);
+  marks_ = std::make_unique<MarkLayer>(add);
   const auto add_tube = [this](vtkProp* prop) {
     for (auto& r : renderers_)
       if (r != &renderer(View::along_harvester)) r->AddViewProp(prop);
@@ -229,9 +230,10 @@ void Scene::frame_first_time() {
 }
 
 bool Scene::refresh() {
-  const bool cloud = cloud_->refresh(), surface = surface_->refresh(), guidance = guidance_->refresh();
+  const bool cloud = cloud_->refresh(), surface = surface_->refresh(), guidance = guidance_->refresh(),
+             marks = marks_->refresh();
   if (cloud || surface) frame_first_time();
-  if (!(cloud || surface || guidance) && !std::exchange(dirty_, false)) return false;
+  if (!(cloud || surface || guidance || marks) && !std::exchange(dirty_, false)) return false;
   dirty_ = false;
   aim_axis_views();
   aim_harvester_view(renderer(View::along_harvester));

@@ -12,6 +12,7 @@
 
 #include "viewer/scene/cloud_layer.hpp"
 #include "viewer/scene/guidance_layer.hpp"
+#include "viewer/scene/mark_layer.hpp"
 #include "viewer/scene/mouse_style.hpp"
 #include "viewer/scene/surface_layer.hpp"
 #include "viewer/scene/view_overlay.hpp"
@@ -41,6 +42,7 @@ class Scene {
   CloudLayer& cloud() { return *cloud_; }
   SurfaceLayer& surface() { return *surface_; }
   GuidanceLayer& guidance() { return *guidance_; }
+  MarkLayer& marks() { return *marks_; }
   MouseStyle& mouse() { return *mouse_; }
 
   void set_layout(ViewLayout layout);
@@ -91,6 +93,7 @@ class Scene {
   std::unique_ptr<CloudLayer> cloud_;
   std::unique_ptr<SurfaceLayer> surface_;
   std::unique_ptr<GuidanceLayer> guidance_;
+  std::unique_ptr<MarkLayer> marks_;
   vtkNew<MouseStyle> mouse_;
   GuidanceInput guided_;
   ViewLayout layout_ = ViewLayout::one;

@@ -1,61 +1,13 @@
 // The real viewer, a daemon under the test's control, real keys and clicks.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <thread>
 
-#include "common/units.hpp"
-#include "tests/integration/viewer/viewer_under_test.hpp"
-#include "tests/unit/viewer/fake_daemon.hpp"
+#include "tests/integration/viewer/window_test.hpp"
 
 namespace linescope::testing {
 namespace {
-
-using namespace std::chrono_literals;
-
-/// Publishes the three tools at about 100 Hz until told otherwise.
-class MovingTools {
- public:
-  explicit MovingTools(FakeDaemon& daemon, double tilt_deg)
-      : thread_([this, &daemon, tilt = radians_from_degrees(tilt_deg)] {
-          while (!stop_) {
-            if (!frozen_) daemon.publish_tools(tilt, object_.load(), harvester_.load());
-            std::this_thread::sleep_for(10ms);
-          }
-        }) {}
-  ~MovingTools() {
-    stop_ = true;
-    thread_.join();
-  }
-  void freeze() { frozen_ = true; }
-  void thaw() { frozen_ = false; }
-  void set_object(ToolState state) { object_ = state; }
-  void set_harvester(ToolState state) { harvester_ = state; }
-
- private:
-  std::atomic<bool> stop_{false}, frozen_{false};
-  std::atomic<ToolState> object_{ToolState::ok}, harvester_{ToolState::ok};
-  std::thread thread_;
-};
-
-bool has_angle(const QJsonObject& shown) {
-  return !shown.isEmpty() && shown["angle_text"].toString() != "--";
-}
-double angle_of(const QJsonObject& shown) {
-  const QString text = shown["angle_text"].toString();
-  return text.leftRef(text.size() - 1).toDouble();
-}
-
-class WindowTest : public ::testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(display_.up()) << "Xvfb is needed: apt-get install xvfb"; }
-
-  const std::string segment_ = unique_segment();
-  VirtualDisplay display_;
-};
 
 TEST_F(WindowTest, ShowsTheAngleOfAKnownHarvesterOverAKnownBoard) {
   FakeDaemon daemon(segment_);

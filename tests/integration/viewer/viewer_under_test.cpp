@@ -16,9 +16,12 @@ std::vector<std::string> command(const std::string& segment, const std::filesyst
 }  // namespace
 
 ViewerUnderTest::ViewerUnderTest(const std::string& segment, const VirtualDisplay& display,
-                                 std::vector<std::string> arguments)
+                                 std::vector<std::string> arguments, const std::string& settings)
     : display_(display),
-      process_(command(segment, folder_.path() / "state.json", arguments), {display.variable()}) {}
+      process_(
+          command(segment, folder_.path() / "state.json", arguments),
+          {display.variable(),
+           "XDG_CONFIG_HOME=" + (settings.empty() ? (folder_.path() / "settings").string() : settings)}) {}
 
 QJsonObject ViewerUnderTest::shown() const {
   QFile file(QString::fromStdString((folder_.path() / "state.json").string()));

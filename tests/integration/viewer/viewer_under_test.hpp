@@ -12,8 +12,9 @@ namespace linescope::testing {
 
 class ViewerUnderTest {
  public:
+  /// `settings`: folder of what is remembered; empty: one of its own.
   ViewerUnderTest(const std::string& segment, const VirtualDisplay& display,
-                  std::vector<std::string> arguments = {});
+                  std::vector<std::string> arguments = {}, const std::string& settings = {});
 
   ChildProcess& process() { return process_; }
 

@@ -18,7 +18,8 @@ namespace linescope::testing {
 /// object itself is moved and turned in the world, so that frames cannot be mixed up unnoticed.
 class FakeDaemon {
  public:
-  explicit FakeDaemon(const std::string& segment, std::uint32_t point_capacity = 2'000'000) {
+  explicit FakeDaemon(const std::string& segment, std::uint32_t point_capacity = 2'000'000)
+      : segment_(segment) {
     SegmentOptions options;
     options.name = segment;
     options.point_capacity = point_capacity;
@@ -37,12 +38,20 @@ class FakeDaemon {
     heartbeat_.reset();
   }
 
+  const std::string& segment() const { return segment_; }
   SegmentWriter& writer() { return *writer_; }
   const Calibration& calibration() const { return calibration_; }
 
   static Rigid<World, Object> world_from_object() {
     return {Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())),
             {120, -40, 30}};
+  }
+
+  /// 80 mm above the board, looking down.
+  static Rigid<World, Endoscope> world_from_endoscope() {
+    const Rigid<Object, Endoscope> above(
+        Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())), {0, 0, 80});
+    return world_from_object() * above;
   }
 
   /// All three tools, now. The harvester's tip touches the board at (0, 0), its axis leans by `tilt_rad`.
@@ -93,12 +102,6 @@ class FakeDaemon {
   }
 
  private:
-  /// 80 mm above the board, looking down.
-  static Rigid<World, Endoscope> world_from_endoscope() {
-    const Rigid<Object, Endoscope> above(
-        Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())), {0, 0, 80});
-    return world_from_object() * above;
-  }
   static Rigid<World, Sensor> world_from_object_of(const Rigid<Object, Sensor>& placed) {
     return world_from_object() * placed;
   }
@@ -118,6 +121,7 @@ class FakeDaemon {
     writer_->publish_pose(sample);
   }
 
+  std::string segment_;
   std::optional<SegmentWriter> writer_;
   std::unique_ptr<Heartbeat> heartbeat_;
   std::unique_ptr<ControlServer> control_;

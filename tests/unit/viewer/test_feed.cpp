@@ -237,5 +237,35 @@ TEST(SurfaceWorkerTest, MakesTheSurfaceAnewWithOtherOptionsAndRefusesBadOnes) {
   EXPECT_TRUE(eventually([&] { return surface.get()->mesh->empty(); }, 10s));
 }
 
+TEST(SurfaceWorkerTest, AChangeThatIsGivenUpLeavesTheSurfaceAsItWas) {
+  HeldLines lines;
+  for (int y = 0; y < 400; ++y) {
+    auto line = std::make_shared<HeldLine>();
+    line->seen_from = {0, 0, 80};
+    line->serial = static_cast<std::uint64_t>(y);
+    for (int x = 0; x < 2'000; ++x)
+      line->points.push_back({{0.01F * static_cast<float>(x), 0.05F * static_cast<float>(y), 0}, 100, 0.05F});
+    lines.push_back(line);
+  }
+  Latest<SurfaceView> surface;
+  MesherOptions options;
+  options.method = MeshMethod::proposed_cubes;
+  SurfaceWorker worker(options, [&](std::shared_ptr<const SurfaceView> v) { surface.put(std::move(v)); });
+  worker.add({.forget = false, .lines = lines});
+  ASSERT_TRUE(eventually([&] { return surface.get()->lines == 400; }));
+  const std::uint64_t version = surface.get()->version;
+  options.method = MeshMethod::implicit;
+  options.interval = 0.635;
+  worker.set_options(options);
+  ASSERT_TRUE(eventually([&] { return worker.changing().has_value(); }));
+  worker.give_up_change();
+  ASSERT_TRUE(eventually([&] { return surface.get()->version > version && !worker.changing(); }));
+  EXPECT_EQ(surface.get()->interval, 1.27);
+  EXPECT_EQ(surface.get()->method, name(MeshMethod::proposed_cubes));
+  // The next change is not given up with it.
+  worker.set_options(options);
+  EXPECT_TRUE(eventually([&] { return surface.get()->interval == 0.635; }));
+}
+
 }  // namespace
 }  // namespace linescope::testing
