@@ -15,7 +15,8 @@ struct Peer {
   std::string name;
   std::function<void()> run;  ///< points to triangles; the timed part
   std::function<TriangleMesh()>
-      mesh;  ///< positions and triangles of the last run; empty where the step makes no mesh
+      mesh;           ///< positions and triangles of the last run; empty where the step makes no mesh
+  bool slow = false;  ///< takes so long that it runs in one round only
 };
 
 /// `cell` in mm: the interval the surface is asked for.

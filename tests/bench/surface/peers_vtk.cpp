@@ -1,4 +1,6 @@
 #include <vtkCellArray.h>
+#include <vtkContourFilter.h>
+#include <vtkDelaunay2D.h>
 #include <vtkExtractSurface.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -6,8 +8,10 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataAlgorithm.h>
 #include <vtkSignedDistance.h>
 #include <vtkSmartPointer.h>
+#include <vtkSurfaceReconstructionFilter.h>
 #include <vtkVoxelGrid.h>
 
 #include <array>
@@ -48,12 +52,14 @@ void configure(vtkVoxelGrid& filter, VtkInput& input, double leaf) {
   filter.SetLeafSize(leaf, leaf, leaf);
 }
 
-void reconstruct(VtkInput& input, double cell) {
-  vtkNew<vtkVoxelGrid> voxels;
-  configure(*voxels, input, cell / 2);
+/// Normals of the points that `source` gives, signed distances to them, triangles.
+void reconstruct(VtkInput& input, vtkPolyDataAlgorithm* source, int neighbours, double cell) {
   vtkNew<vtkPCANormalEstimation> normals;
-  normals->SetInputConnection(voxels->GetOutputPort());
-  normals->SetSampleSize(60);
+  if (source != nullptr)
+    normals->SetInputConnection(source->GetOutputPort());
+  else
+    normals->SetInputData(input.cloud);
+  normals->SetSampleSize(neighbours);
   normals->SetNormalOrientationToPoint();
   normals->SetOrientationPoint(0, 0, 1000);
   vtkNew<vtkSignedDistance> distance;
@@ -68,6 +74,29 @@ void reconstruct(VtkInput& input, double cell) {
   surface->ComputeNormalsOff();
   surface->Update();
   input.result = surface->GetOutput();
+}
+
+void delaunay(VtkInput& input, double cell) {
+  vtkNew<vtkVoxelGrid> voxels;
+  configure(*voxels, input, cell / 2);
+  vtkNew<vtkDelaunay2D> triangles;
+  triangles->SetInputConnection(voxels->GetOutputPort());
+  triangles->Update();
+  input.result = triangles->GetOutput();
+}
+
+void surface_reconstruction(VtkInput& input, double cell) {
+  vtkNew<vtkVoxelGrid> voxels;
+  configure(*voxels, input, cell / 2);
+  vtkNew<vtkSurfaceReconstructionFilter> distance;
+  distance->SetInputConnection(voxels->GetOutputPort());
+  distance->SetNeighborhoodSize(20);
+  distance->SetSampleSpacing(cell);
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputConnection(distance->GetOutputPort());
+  contour->SetValue(0, 0.0);
+  contour->Update();
+  input.result = contour->GetOutput();
 }
 
 TriangleMesh mesh_from(vtkPolyData& data) {
@@ -91,9 +120,19 @@ std::vector<Peer> vtk_peers(std::span<const Eigen::Vector3f> points, double cell
     configure(*voxels, *input, cell);
     voxels->Update();
   };
+  const auto chain = [input, cell] {
+    vtkNew<vtkVoxelGrid> voxels;
+    configure(*voxels, *input, cell / 2);
+    reconstruct(*input, voxels, 60, cell);
+  };
+  const auto mesh = [input] { return mesh_from(*input->result); };
   return {{"VTK VoxelGrid alone", down_sample, [] { return TriangleMesh{}; }},
-          {"VTK VoxelGrid, PCANormals, SignedDistance, ExtractSurface",
-           [input, cell] { reconstruct(*input, cell); }, [input] { return mesh_from(*input->result); }}};
+          {"VTK VoxelGrid, PCANormals, SignedDistance, ExtractSurface", chain, mesh},
+          {"VTK VoxelGrid, Delaunay2D", [=] { delaunay(*input, cell); }, mesh},
+          {"VTK VoxelGrid, SurfaceReconstructionFilter, contour",
+           [=] { surface_reconstruction(*input, cell); }, mesh, true},
+          {"VTK all points, PCANormals, SignedDistance, ExtractSurface",
+           [=] { reconstruct(*input, nullptr, 100, cell); }, mesh, true}};
 }
 
 }  // namespace linescope::bench

@@ -15,13 +15,14 @@ double rms_of_all(const TriangleMesh& mesh, const CondyleScan& scan, double marg
   return std::sqrt(squares / std::max(count, 1.0));
 }
 
-MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin) {
+MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin,
+                         double stray_beyond) {
   MeshAccuracy result;
   std::vector<double> distances;
   for (const Eigen::Vector3f& p : mesh.positions) {
     if (scan.beyond_border(p) > -margin) continue;
     const double d = scan.distance(p);
-    if (std::abs(d) < 1.0)
+    if (std::abs(d) < stray_beyond)
       distances.push_back(d);
     else
       ++result.stray;
@@ -38,6 +39,7 @@ MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, doub
   const auto n = static_cast<double>(distances.size());
   result.mean = sum / n;
   result.rms = std::sqrt(squares / n);
+  result.deviation = std::sqrt(std::max(0.0, squares / n - result.mean * result.mean));
   result.p95 = distances[static_cast<std::size_t>(0.95 * (n - 1))];
   result.worst = distances.back();
   return result;

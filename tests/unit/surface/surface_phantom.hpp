@@ -140,10 +140,12 @@ inline void add_all(Mesher& mesher, const std::vector<ScannedLine>& lines) {
 struct MeshAccuracy {
   double rms = 0, mean = 0, p95 = 0, worst = 0;  ///< mm
   std::size_t vertices = 0;
-  std::size_t stray = 0;  ///< farther than 1 mm: counted, left out of the figures
+  double deviation = 0;   ///< mm, about the mean
+  std::size_t stray = 0;  ///< farther than `stray_beyond`: counted, left out of the figures
 };
 
-MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin);
+MeshAccuracy accuracy_of(const TriangleMesh& mesh, const CondyleScan& scan, double margin,
+                         double stray_beyond = 1.0);
 
 /// Root mean square over all vertices within the same margin, stray or not.
 double rms_of_all(const TriangleMesh& mesh, const CondyleScan& scan, double margin);
