@@ -7,6 +7,7 @@
 
 #include "common/calibration.hpp"
 #include "common/camera_convention.hpp"
+#include "common/camera_file.hpp"
 #include "common/units.hpp"
 
 namespace linescope {
@@ -18,69 +19,8 @@ tl::unexpected<Error> in_file(const fs::path& file, const Error& error) {
   return fail(error.code, fmt::format("calibration {}: {}", file.string(), error.message));
 }
 
-/// A matrix of the wanted shape under the first of `keys` that exists; nothing when none does.
-Result<std::optional<cv::Mat>> matrix(const cv::FileStorage& storage, std::initializer_list<const char*> keys,
-                                      int rows, int cols) {
-  for (const char* key : keys) {
-    const cv::FileNode node = storage[key];
-    if (node.empty()) continue;
-    cv::Mat m;
-    try {
-      node >> m;
-      m.convertTo(m, CV_64F);
-    } catch (const cv::Exception&) {
-      return fail(ErrorCode::invalid,
-                  fmt::format("{} is not a matrix (!!opencv-matrix with rows, cols, dt, data)", key));
-    }
-    const bool transposed = rows == 1 && m.rows != 1 && m.cols == 1;
-    if (transposed) m = m.t();
-    if (m.rows != rows || (cols > 0 && m.cols != cols)) {
-      return fail(ErrorCode::invalid, fmt::format("{} is {}x{}, but must be {}x{}", key, m.rows, m.cols, rows,
-                                                  cols > 0 ? cols : 4));
-    }
-    if (!cv::checkRange(m))
-      return fail(ErrorCode::invalid, fmt::format("{} holds a number that is not finite", key));
-    return m.clone();
-  }
-  return std::nullopt;
-}
-
-Result<CameraModel> read_camera(const cv::FileStorage& storage) {
-  CameraModel camera;
-  camera.width = static_cast<int>(storage["image_width"].real());
-  camera.height = static_cast<int>(storage["image_height"].real());
-  if (storage["image_width"].empty() || storage["image_height"].empty()) {
-    return fail(
-        ErrorCode::invalid,
-        "image_width and image_height are missing: the size in pixels at which the camera was calibrated");
-  }
-  auto k = matrix(storage, {"camera_matrix"}, 3, 3);
-  if (!k) return tl::unexpected(k.error());
-  if (!*k) return fail(ErrorCode::invalid, "camera_matrix is missing");
-  const cv::Mat& m = **k;
-  if (std::abs(cv::determinant(m)) < 1e-9) return fail(ErrorCode::invalid, "camera_matrix is singular");
-  camera.fx = m.at<double>(0, 0);
-  camera.skew = m.at<double>(0, 1);
-  camera.cx = m.at<double>(0, 2);
-  camera.fy = m.at<double>(1, 1);
-  camera.cy = m.at<double>(1, 2);
-  auto d = matrix(storage, {"distortion_coefficients"}, 1, 0);
-  if (!d) return tl::unexpected(d.error());
-  if (!*d)
-    return fail(ErrorCode::invalid,
-                "distortion_coefficients is missing (k1 k2 p1 p2 or k1 k2 p1 p2 k3; zeros for none)");
-  if ((*d)->cols != 4 && (*d)->cols != 5) {
-    return fail(
-        ErrorCode::invalid,
-        fmt::format("distortion_coefficients has {} numbers; 4 (k1 k2 p1 p2) or 5 (and k3) are understood",
-                    (*d)->cols));
-  }
-  for (int i = 0; i < (*d)->cols; ++i) camera.distortion[static_cast<std::size_t>(i)] = (*d)->at<double>(i);
-  return camera;
-}
-
 Result<LaserPlane> read_laser(const cv::FileStorage& storage) {
-  auto plane = matrix(storage, {"laser_plane"}, 1, 4);
+  auto plane = yaml_matrix(storage, {"laser_plane"}, 1, 4);
   if (!plane) return tl::unexpected(plane.error());
   if (*plane) {
     return laser_plane_from_opencv(
@@ -97,7 +37,7 @@ Result<LaserPlane> read_laser(const cv::FileStorage& storage) {
 
 Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage,
                                                  std::vector<std::string>& notes) {
-  auto found = matrix(storage, {"endoscope_from_camera", "tool_from_camera"}, 4, 4);
+  auto found = yaml_matrix(storage, {"endoscope_from_camera", "tool_from_camera"}, 4, 4);
   if (!found) return tl::unexpected(found.error());
   if (!*found) {
     notes.emplace_back("endoscope_from_camera is missing: identity is used");
@@ -119,9 +59,9 @@ Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage,
 
 Result<HarvesterCalibration> read_harvester(const cv::FileStorage& storage, std::vector<std::string>& notes) {
   HarvesterCalibration harvester;
-  auto tip = matrix(storage, {"harvester_tip"}, 1, 3);
+  auto tip = yaml_matrix(storage, {"harvester_tip"}, 1, 3);
   if (!tip) return tl::unexpected(tip.error());
-  auto axis = matrix(storage, {"harvester_axis"}, 1, 3);
+  auto axis = yaml_matrix(storage, {"harvester_axis"}, 1, 3);
   if (!axis) return tl::unexpected(axis.error());
   if (!*tip || !*axis) {
     notes.emplace_back("harvester_tip or harvester_axis is missing: the harvester is not calibrated");
@@ -163,7 +103,7 @@ void write_all(cv::FileStorage& out, const Calibration& c) {
 Result<Calibration> read_all(const cv::FileStorage& storage) {
   Calibration c;
   c.name = storage["name"].empty() ? "" : storage["name"].string();
-  auto camera = read_camera(storage);
+  auto camera = camera_from_yaml(storage);
   if (!camera) return tl::unexpected(camera.error());
   c.camera = *camera;
   auto laser = read_laser(storage);

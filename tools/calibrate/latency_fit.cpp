@@ -140,8 +140,10 @@ class Refinement {
     const auto camera_from_endoscope = hand_eye_of(x).inverse();
     const auto world_from_board = board_of(x);
     Eigen::Index at = 0;
-    for (const Part& part : parts_) {
-      const auto pose = track_.at(part.time - std::llround(x(0) * 1e6));
+    look_up(x(0));
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      const auto& pose = poses_[i];
       const auto camera_from_board =
           pose ? camera_from_endoscope * renamed<World, Endoscope>(*pose).inverse() * world_from_board
                : Rigid<CameraCv, Board>(Eigen::Quaterniond::Identity(), Vector3d(0, 0, -1));
@@ -151,6 +153,15 @@ class Refinement {
   }
 
  private:
+  /// Most steps of a fit leave the latency as it is.
+  void look_up(double latency_ms) const {
+    if (latency_ms == latency_ms_ && poses_.size() == parts_.size()) return;
+    latency_ms_ = latency_ms;
+    poses_.clear();
+    for (const Part& part : parts_)
+      poses_.push_back(track_.smooth_at(part.time - std::llround(latency_ms * 1e6)));
+  }
+
   Vector2d error(const Vector3d& point, const Vector2d& pixel) const {
     constexpr double kFarOff = 1000;  // px: behind the camera, or no pose
     if (!(point.z() > 0)) return Vector2d::Constant(kFarOff);
@@ -160,6 +171,8 @@ class Refinement {
   std::vector<Part> parts_;
   const PoseTrack& track_;
   const CameraModel& camera_;
+  mutable double latency_ms_ = 0;
+  mutable std::vector<std::optional<Rigid<World, Sensor>>> poses_;
 };
 
 /// The board's place that the middle picture and the start values say.

@@ -252,14 +252,20 @@ std::vector<std::size_t> passes_of(const std::vector<ScanLine>& lines) {
   if (lines.empty()) return pass;
   const std::vector<double> way = way_of(lines);
   const double turn = kTurnShare * range_of(way);
-  double farthest = way[0];
+  std::size_t farthest = 0;
   int heading = 0;
   for (std::size_t i = 1; i < way.size(); ++i) {
-    const double ahead = way[i] - farthest;
+    const double ahead = way[i] - way[farthest];
     const bool back = std::abs(ahead) > turn && (heading == 0 || ahead * heading < 0);
-    pass[i] = pass[i - 1] + (back && heading != 0 ? 1 : 0);
+    pass[i] = pass[i - 1];
+    if (back && heading != 0) {
+      // It turned back where it had been farthest, not where that became clear.
+      const std::size_t next = pass[farthest] + 1;
+      std::fill(pass.begin() + static_cast<std::ptrdiff_t>(farthest) + 1,
+                pass.begin() + static_cast<std::ptrdiff_t>(i) + 1, next);
+    }
     if (back) heading = ahead > 0 ? 1 : -1;
-    if (back || ahead * heading > 0) farthest = way[i];
+    if (back || ahead * heading > 0) farthest = i;
   }
   return pass;
 }

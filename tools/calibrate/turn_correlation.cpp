@@ -1,14 +1,23 @@
 #include "tools/calibrate/turn_correlation.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "tools/calibrate/rotation_vector.hpp"
 
 namespace linescope::calibrate {
 namespace {
 
 constexpr Nanoseconds kLongestGap = 50 * kMillisecond;
 constexpr Nanoseconds kStep = 2 * kMillisecond;
+constexpr Nanoseconds kSmoothing = 25 * kMillisecond;
+constexpr std::ptrdiff_t kFewestSmoothed = 6;
 constexpr double kUncovered = -2;  // below every correlation
+
+bool earlier(const PoseSample& sample, Nanoseconds time) {
+  return sample.time < time;
+}
 
 struct Sums {
   double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
@@ -36,8 +45,7 @@ PoseTrack::PoseTrack(const std::vector<PoseSample>& samples) {
 }
 
 std::optional<Rigid<World, Sensor>> PoseTrack::at(Nanoseconds time) const {
-  const auto after = std::lower_bound(good_.begin(), good_.end(), time,
-                                      [](const PoseSample& s, Nanoseconds t) { return s.time < t; });
+  const auto after = std::lower_bound(good_.begin(), good_.end(), time, earlier);
   if (after == good_.end()) return std::nullopt;
   if (after->time == time) return after->world_from_sensor;
   if (after == good_.begin()) return std::nullopt;
@@ -46,6 +54,29 @@ std::optional<Rigid<World, Sensor>> PoseTrack::at(Nanoseconds time) const {
   if (gap > kLongestGap) return std::nullopt;
   return interpolate(before->world_from_sensor, after->world_from_sensor,
                      static_cast<double>(time - before->time) / static_cast<double>(gap));
+}
+
+std::optional<Rigid<World, Sensor>> PoseTrack::smooth_at(Nanoseconds time) const {
+  const auto plain = at(time);
+  if (!plain) return plain;
+  const auto first = std::lower_bound(good_.begin(), good_.end(), time - kSmoothing, earlier);
+  const auto last = std::lower_bound(first, good_.end(), time + kSmoothing, earlier);
+  if (last - first < kFewestSmoothed) return plain;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 6> right = Eigen::Matrix<double, 3, 6>::Zero();
+  for (auto sample = first; sample != last; ++sample) {
+    const double u = static_cast<double>(sample->time - time) / static_cast<double>(kSmoothing);
+    const double weight = (1 - u * u) * (1 - u * u);  // nothing jumps when a sample enters or leaves
+    const Eigen::Vector3d powers(1, u, u * u);
+    Eigen::Matrix<double, 6, 1> off;
+    off << sample->world_from_sensor.translation() - plain->translation(),
+        vector_from_quaternion(plain->rotation().conjugate() * sample->world_from_sensor.rotation());
+    normal += weight * powers * powers.transpose();
+    right += weight * powers * off.transpose();
+  }
+  const Eigen::Matrix<double, 1, 6> here = normal.ldlt().solve(right).row(0);
+  return Rigid<World, Sensor>(plain->rotation() * quaternion_from_vector(here.tail<3>().transpose()),
+                              plain->translation() + here.head<3>().transpose());
 }
 
 std::optional<double> correlation_at(const std::vector<TurnOver>& turns, const PoseTrack& track,

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include "common/units.hpp"
+#include "tools/calibrate/laser_fit.hpp"
+#include "tools/calibrate/optical_steps.hpp"
+#include "tools/calibrate/plots.hpp"
+
+namespace linescope::calibrate {
+namespace {
+
+std::string text_of(const LaserPlane& plane) {
+  const BaselineForm form = baseline_form(plane);
+  const Eigen::Vector4d n = opencv_from_laser_plane(plane);
+  return fmt::format("n {:.6f} {:.6f} {:.6f} d {:.5f} (b {:.4f} mm, alpha {:.4f} deg)", n(0), n(1), n(2),
+                     n(3), form.baseline_mm, degrees_from_radians(form.alpha_rad));
+}
+
+class LaserStep final : public Step {
+ public:
+  std::string_view name() const override { return "laser"; }
+  std::string_view about() const override { return "the laser's surface from its line on the board"; }
+
+  void declare(ConfigSchema& schema) override {
+    schema.section("laser", "The laser's surface from its line on the board.");
+    schema.choice("laser.colour", line_.colour,
+                  {{"green", LaserColour::green},
+                   {"red", LaserColour::red},
+                   {"blue", LaserColour::blue},
+                   {"mono", LaserColour::mono}},
+                  "Colour of the laser; mono: the picture has none.");
+    schema.choice("laser.axis", line_.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
+                  "column: the line runs from left to right; row: from top to bottom.");
+    schema.choice(
+        "laser.model", o_.model,
+        {{"automatic", LaserModel::automatic}, {"plane", LaserModel::plane}, {"bent", LaserModel::bent}},
+        "automatic: bent when pictures left out agree with it better.");
+    schema.integer("laser.min_pictures", o_.min_pictures, {.min = 3, .max = 1000},
+                   "Pictures with board and line.");
+    schema.number("laser.min_depth_span", o_.min_depth_span, {.min = 0, .max = 10},
+                  "Farthest less nearest line over the middle distance.");
+    schema.number("laser.margin_squares", o_.points.margin_squares, {.min = 0, .max = 1000},
+                  "How far the flat surface goes on around the corners, in squares.");
+    schema.number("laser.max_residual_mm", o_.max_residual_mm, {.unit = "mm", .min = 0, .max = 100},
+                  "Residual.");
+    schema.number("laser.max_held_out_mm", o_.max_held_out_mm, {.unit = "mm", .min = 0, .max = 100},
+                  "Error on pictures that were in no fit.");
+    schema.number("laser.max_plane_sd_mm", o_.max_plane_sd_mm, {.unit = "mm", .min = 0, .max = 100},
+                  "Uncertainty of the surface within the depths seen.");
+    schema.number("laser.design_baseline_mm", o_.design_baseline_mm, {.unit = "mm", .min = 0, .max = 1000},
+                  "b as the instrument was built, to find a wrong square size; 0: not known.");
+    schema.number("laser.max_scale_error", o_.max_scale_error, {.min = 0, .max = 1},
+                  "Of b against the design.");
+    schema.number("laser.every_ms", every_ms_, {.unit = "ms", .min = 0, .max = 60000},
+                  "Of a recording or a living camera one picture in this time is looked at; 0: all.");
+    schema.integer("laser.most_pictures", most_, {.min = 3, .max = 1000}, "Enough pictures.");
+  }
+  Result<void> validate() const override { return calibrate::validate(o_); }
+
+  CollectOptions wants(const BoardOptions& board) const override {
+    CollectOptions wanted;
+    wanted.board = board;
+    wanted.line = line_;
+    wanted.every = static_cast<Nanoseconds>(every_ms_ * 1e6);
+    wanted.most_pictures = static_cast<std::size_t>(most_);
+    return wanted;
+  }
+
+  std::string coverage(const Session& so_far, const BoardOptions&) const override {
+    std::size_t both = 0;
+    for (const Observation& seen : so_far.observations)
+      both += !seen.board.empty() && !seen.line.empty() ? 1U : 0U;
+    return fmt::format("{} of {} pictures with board and laser line", both, so_far.offered);
+  }
+
+  Result<Outcome> run(const Session& session, const BoardOptions& board,
+                      const Calibration& before) const override {
+    if (session.width != before.camera.width || session.height != before.camera.height)
+      return fail(
+          ErrorCode::mismatch,
+          fmt::format("the pictures are {}x{}, the camera was calibrated at {}x{}: run the camera step first",
+                      session.width, session.height, before.camera.width, before.camera.height));
+    LaserFitOptions options = o_;
+    options.points.axis = line_.axis;
+    auto fit = fit_laser(session, board, before.camera, options);
+    if (!fit) return tl::unexpected(fit.error());
+    return outcome_of(*fit, before);
+  }
+
+ private:
+  static Outcome outcome_of(const LaserFit& fit, const Calibration& before) {
+    Outcome out;
+    out.quality = fit.quality;
+    out.method = fit.form == SheetForm::plane ? "robust plane" : "robust bent surface";
+    out.refused = fit.refused;
+    out.put = [fit](Calibration& c) {
+      std::string previous = text_of(c.laser);
+      c.laser = fit.plane;
+      return previous;
+    };
+    if (fit.form == SheetForm::bent)
+      out.quality.remarks.push_back(fmt::format(
+          "The surface is bent. The best plane is stored, which loses {:.3f} mm of the error on pictures "
+          "that were in no fit.",
+          fit.plane_loss_mm));
+    out.plots.push_back({"laser-residuals", plot_laser_errors(fit.pictures, fit.sheet)});
+    Sheet old;
+    old.c.head<3>() =
+        -opencv_from_laser_plane(before.laser).head<3>() / opencv_from_laser_plane(before.laser)(3);
+    out.plots.push_back({"laser-residuals-before", plot_laser_errors(fit.pictures, old)});
+    return out;
+  }
+
+  LineExtractorOptions line_;
+  LaserFitOptions o_;
+  double every_ms_ = 300;
+  int most_ = 60;
+};
+
+}  // namespace
+
+std::unique_ptr<Step> make_laser_step() {
+  return std::make_unique<LaserStep>();
+}
+
+}  // namespace linescope::calibrate
