@@ -42,6 +42,7 @@ enum class NormalReason : std::uint8_t {
   gap,                  ///< the foot lies in a hole of the scan
   too_old,              ///< the newest line near the foot is older than the limit
   too_uncertain,        ///< the 95 % cone of the normal is wider than the limit
+  too_curved,           ///< the surface turns within the smallest patch: a crease, or a radius of few mm
   no_triangle,          ///< Algorithm 1 only: no three points qualify; the normal is the fallback k (Eq 5.4)
 };
 

@@ -24,6 +24,8 @@ std::string_view name(NormalReason reason) {
       return "surface too old";
     case NormalReason::too_uncertain:
       return "too uncertain";
+    case NormalReason::too_curved:
+      return "surface too strongly curved";
     case NormalReason::no_triangle:
       return "no triangle (Algorithm 1)";
   }

@@ -76,22 +76,34 @@ class Estimation {
   void fit(const PatchFrame& frame, double radius) {
     gather(index_, frame, radius, options_.height, patch_);
     quadric_ = fit_robust_quadric(patch_, options_.robust);
-    const double wanted = std::clamp(options_.curvature_reach / std::max(quadric_.curvature(), 1e-6),
-                                     options_.smallest_radius, radius);
-    if (wanted < 0.85 * radius) {
-      shrink(patch_, wanted);
-      quadric_ = fit_robust_quadric(patch_, options_.robust);
-    }
+    shrink_to_curvature();
     bend_ << 2 * quadric_.b[3], quadric_.b[4], quadric_.b[4], 2 * quadric_.b[5];
     const Support support = judge_support(patch_, query_.now, options_.support);
     result_.counts = support.counts;
     result_.age = support.counts.points > 0 ? query_.now - support.newest : 0;
     result_.radius_of_fit = patch_.radius;
     result_.reason = support.reason;
-    if (support.reason == NormalReason::none) solution_ = solve_patch(patch_, quadric_, options_.solution);
-    if (support.reason == NormalReason::none && !solution_.solved)
+    if (support.reason == NormalReason::none && may_be_crease()) result_.reason = NormalReason::too_curved;
+    if (result_.reason == NormalReason::none) solution_ = solve_patch(patch_, quadric_, options_.solution);
+    if (result_.reason == NormalReason::none && !solution_.solved)
       result_.reason = NormalReason::too_uncertain;
   }
+
+  /// A smaller patch may show a curvature that the larger one smoothed over: until both agree.
+  void shrink_to_curvature() {
+    constexpr int kMostRounds = 4;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const double wanted = options_.curvature_reach / std::max(quadric_.curvature(), 1e-6);
+      strongly_curved_ = strongly_curved_ || wanted < options_.smallest_radius;
+      const double next = std::max(wanted, options_.smallest_radius);
+      if (next >= 0.85 * patch_.radius) return;
+      shrink(patch_, next);
+      quadric_ = fit_robust_quadric(patch_, options_.robust);
+    }
+  }
+
+  /// Where a quadric hardly fits into the patch, what does not lie on it may be the other side of a crease.
+  bool may_be_crease() const { return strongly_curved_ && quadric_.used < options_.agreement * patch_.size; }
 
   /// Foot, normals and distances on the solved surface.
   void place() {
@@ -123,12 +135,19 @@ class Estimation {
     return 1 + 2 * out / std::max(1.0, used + out);
   }
 
+  /// A small patch has few segments, whose scatter is itself uncertain: those that by chance scatter little
+  /// would be the ones answered.
+  double largest_uncertainty() const {
+    constexpr double kEnough = 3;  // mm
+    return options_.support.largest_uncertainty * std::min(1.0, patch_.radius / kEnough);
+  }
+
   /// The scan alone cannot be less certain than with the tracker: one cone is mostly enough.
   bool certain_enough(const Eigen::Matrix2d& of_scan) const {
     const double whole = result_.normal_uncertainty;
-    if (whole <= std::min(options_.support.largest_uncertainty, options_.support.largest_cone)) return true;
+    if (whole <= std::min(largest_uncertainty(), options_.support.largest_cone)) return true;
     return whole <= options_.support.largest_cone &&
-           cone_95({of_scan, solution_.degrees_of_freedom}) <= options_.support.largest_uncertainty;
+           cone_95({of_scan, solution_.degrees_of_freedom}) <= largest_uncertainty();
   }
 
   void judge_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& axis) {
@@ -158,6 +177,7 @@ class Estimation {
   Quadric quadric_;
   Eigen::Matrix2d bend_ = Eigen::Matrix2d::Zero();  ///< change of the slope per move along the surface, 1/mm
   PatchSolution solution_;
+  bool strongly_curved_ = false;  ///< a fit asked for a smaller patch than there is
 };
 
 }  // namespace
@@ -184,6 +204,8 @@ Result<void> validate(const RobustNormalOptions& o) {
                             o.smallest_radius, o.radius));
   if (!(o.height > 0))
     return fail(ErrorCode::invalid, "normal estimate: height of the patch must be positive");
+  if (!(o.agreement >= 0 && o.agreement <= 1))
+    return fail(ErrorCode::invalid, "normal estimate: agreement must be a share between 0 and 1");
   if (!(o.curvature_reach > 0))
     return fail(ErrorCode::invalid, "normal estimate: curvature reach must be positive");
   if (!(o.unseen.surface_tilt >= 0 && o.unseen.axis_tilt >= 0 && o.unseen.tip >= 0))

@@ -27,8 +27,10 @@ struct RobustNormalOptions {
   double radius = 4.5;           ///< of the patch on a surface of little curvature, mm
   double smallest_radius = 1.6;  ///< never less, mm
   double curvature_reach =
-      0.35;             ///< the patch reaches at most this share of the smallest radius of curvature
-  double height = 3.0;  ///< segments farther from the first plane are another surface, mm
+      0.35;                ///< the patch reaches at most this share of the smallest radius of curvature
+  double agreement = 0.9;  ///< share of a patch's segments that must lie on one surface where its curvature
+                           ///< asks for less than the smallest patch: otherwise it may be a crease
+  double height = 3.0;     ///< segments farther from the first plane are another surface, mm
   /// What no scan can show, because it is the same at every time; see Unseen.
   Unseen unseen = Unseen::of_field(0.76, 0.0026);
   FootSearchOptions foot;

@@ -125,6 +125,33 @@ TEST_F(Scanned, RefusesWhatIsTooUncertainButKeepsTheNumbersForDiagnostics) {
   EXPECT_GT(e.normal_uncertainty, radians_from_degrees(5));
 }
 
+/// Two rolls of 2.6 mm radius that meet in a crease along y.
+Surface crease() {
+  constexpr double kApart = 2.4, kRadius = 2.6;
+  return {
+      "crease",
+      [](const Eigen::Vector3d& p) { return p.z() + std::pow(std::abs(p.x()) - kApart, 2) / (2 * kRadius); },
+      [](const Eigen::Vector3d& p) {
+        return Eigen::Vector3d(std::copysign(std::abs(p.x()) - kApart, p.x()) / kRadius, 0, 1);
+      },
+      5, 4};
+}
+
+TEST_F(Scanned, NoNormalBesideACreaseIsWrongByMoreThanItSays) {
+  scan(crease(), {.line = 0.03});
+  int refused = 0, answered = 0;
+  for (const double x : {-2.4, -1.6, -1.2, -0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4}) {
+    const PlacedSpot spot = spot_at(crease(), x, 0, 0.05, 0, 0.3);
+    const NormalEstimate e = estimator_.estimate(spot.query);
+    refused += e.reason == NormalReason::too_curved;
+    if (!e.good()) continue;
+    ++answered;
+    EXPECT_LT(angle_difference(e.normal, spot.true_normal), e.normal_uncertainty) << x;
+  }
+  std::printf("crease: %d answered, %d refused as too strongly curved\n", answered, refused);
+  EXPECT_GT(refused, 0);
+}
+
 // A tip that may be 3 mm off on a knee of 25 mm radius: the scan is good, the answer is not.
 TEST(RobustNormal, RefusesWhatTheTrackerMakesTooUncertain) {
   Scanner scanner(5);
