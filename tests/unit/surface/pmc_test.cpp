@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "tests/unit/surface/mesh_topology.hpp"
 #include "tests/unit/surface/surface_phantom.hpp"
@@ -86,30 +88,77 @@ TEST(Pmc, EqualsVtkOnTenThousandRandomGrids) {
   }
 }
 
+/// The marked vertices as a dense grid with an empty layer around.
+DenseGrid dense_grid(const std::vector<Eigen::Vector3f>& vertices, double interval) {
+  Eigen::Array3i low = Eigen::Array3i::Constant(1 << 20), high = -low;
+  std::vector<Eigen::Array3i> marked;
+  for (const auto& v : vertices) {
+    marked.push_back((v.array().cast<double>() / interval).round().cast<int>());
+    low = low.min(marked.back());
+    high = high.max(marked.back());
+  }
+  DenseGrid grid{{high.x() - low.x() + 3, high.y() - low.y() + 3, high.z() - low.z() + 3}, {}};
+  grid.marked.resize(static_cast<std::size_t>(grid.size[0] * grid.size[1] * grid.size[2]));
+  for (const auto& m : marked) grid.at(m.x() - low.x() + 1, m.y() - low.y() + 1, m.z() - low.z() + 1) = 1;
+  return grid;
+}
+
+void expect_equal_to_vtk(Mesher& mesher) {
+  const double interval = mesher.options().interval;
+  DenseGrid grid = dense_grid(mesher.grid_vertices(), interval);
+  const TriangleMesh own = mesher.mesh();
+  for (const auto filter : {testing::VtkFilter::marching_cubes, testing::VtkFilter::flying_edges}) {
+    const TriangleMesh vtk = testing::vtk_surface(grid, filter);
+    EXPECT_EQ(own.vertex_count(), vtk.vertex_count());
+    EXPECT_EQ(own.triangle_count(), vtk.triangle_count());
+    EXPECT_NEAR(own.area(), vtk.area() * interval * interval, 1e-4 * own.area());
+    const auto a = testing::topology_of(own), b = testing::topology_of(vtk);
+    EXPECT_EQ(a.pieces, b.pieces);
+    EXPECT_EQ(a.euler(), b.euler());
+    EXPECT_TRUE(a.closed());
+  }
+}
+
 TEST(Pmc, EqualsVtkOnTheCondyle) {
   const auto scan = testing::scan_condyle();
   for (const double interval : kThesisIntervals) {
+    SCOPED_TRACE(interval);
     auto mesher = pmc(interval);
     testing::add_all(*mesher, scan.lines);
-    const auto vertices = mesher->grid_vertices();
-    Eigen::Array3i low = Eigen::Array3i::Constant(1 << 20), high = -low;
-    std::vector<Eigen::Array3i> marked;
-    for (const auto& v : vertices) {
-      marked.push_back((v.array().cast<double>() / interval).round().cast<int>());
-      low = low.min(marked.back());
-      high = high.max(marked.back());
-    }
-    DenseGrid grid{{high.x() - low.x() + 3, high.y() - low.y() + 3, high.z() - low.z() + 3}, {}};
-    grid.marked.resize(static_cast<std::size_t>(grid.size[0] * grid.size[1] * grid.size[2]));
-    for (const auto& m : marked) grid.at(m.x() - low.x() + 1, m.y() - low.y() + 1, m.z() - low.z() + 1) = 1;
-    const TriangleMesh own = mesher->mesh();
-    const TriangleMesh vtk = testing::vtk_surface(grid, testing::VtkFilter::marching_cubes);
-    EXPECT_EQ(own.vertex_count(), vtk.vertex_count()) << interval;
-    EXPECT_EQ(own.triangle_count(), vtk.triangle_count()) << interval;
-    EXPECT_NEAR(own.area(), vtk.area() * interval * interval, 1e-4 * own.area()) << interval;
-    EXPECT_EQ(testing::topology_of(own).euler(), testing::topology_of(vtk).euler()) << interval;
-    EXPECT_TRUE(testing::topology_of(own).closed()) << interval;
+    expect_equal_to_vtk(*mesher);
   }
+}
+
+/// A patch of 25 x 10 mm as a height over x and y, 40,000 points with noise along z.
+std::vector<SurfacePoint> points_on(double (*height)(double, double), double noise_mm) {
+  testing::Noise noise(31);
+  std::vector<SurfacePoint> points(40'000);
+  for (auto& p : points) {
+    const double x = 25 * (noise.uniform() - 0.5), y = 10 * (noise.uniform() - 0.5);
+    p.position = Eigen::Vector3d(x, y, height(x, y) + noise_mm * noise.gauss()).cast<float>();
+  }
+  return points;
+}
+
+TEST(Pmc, EqualsVtkOnPlaneCylinderAndMiniKnee) {
+  const struct {
+    const char* name;
+    double (*height)(double, double);
+  } phantoms[] = {{"plane", [](double x, double y) { return 0.2 * x - 0.1 * y; }},
+                  {"cylinder, 49.1 mm", [](double x, double) { return std::sqrt(24.55 * 24.55 - x * x); }},
+                  {"two condyles of 4 mm with a notch", [](double x, double y) {
+                     const double left = 16 - (x - 3) * (x - 3) - y * y,
+                                  right = 16 - (x + 3) * (x + 3) - y * y;
+                     return std::sqrt(std::max({left, right, 0.0}));
+                   }}};
+  for (const auto& phantom : phantoms)
+    for (const double interval : kThesisIntervals)
+      for (const double noise : {0.0, 0.26, 1.5}) {
+        SCOPED_TRACE(std::string(phantom.name) + ", t = " + std::to_string(interval));
+        auto mesher = pmc(interval);
+        mesher->add_line({.points = points_on(phantom.height, noise), .seen_from = {0, 0, 60}});
+        expect_equal_to_vtk(*mesher);
+      }
 }
 
 TEST(Pmc, MarksTheGridVertexNearestToThePoint) {
