@@ -115,6 +115,8 @@ void CheckStep::declare(ConfigSchema& schema) {
   schema.number("check.most_target_error_mm", shape_.most_target_error_mm, limit,
                 "Limit of the RMS error of points that were in no fit.");
   schema.flag("check.still", still_test_, "Test the tracker at rest as well.");
+  schema.numbers("check.still_stations", still_stations_, {.min = 1, .max = kMaxStations}, {},
+                 "Sensors that lie still, numbered as on the tracker; empty: the object's.");
   schema.number("check.still_seconds", still_.least_seconds, {.unit = "s", .min = 0.5, .max = 600},
                 "A sensor has to lie still for so long.");
   const NumberSpec small{.unit = "mm", .min = 0.001, .max = 10};
@@ -142,6 +144,19 @@ std::string CheckStep::coverage(const Session& so_far, const BoardOptions&) cons
   return fmt::format("{} of {} pictures with a laser line", so_far.observations.size(), so_far.offered);
 }
 
+std::vector<StillStation> CheckStep::resting(const Session& session) const {
+  std::vector<int> stations;
+  for (const double number : still_stations_) stations.push_back(static_cast<int>(number) - 1);
+  if (stations.empty() && session.stations.object >= 0) stations.push_back(session.stations.object);
+  if (stations.empty()) {
+    for (int station = 0; station < kMaxStations; ++station) stations.push_back(station);
+  }
+  std::vector<StillStation> stretches;
+  for (const int station : stations)
+    stretches.push_back(still_stretch(session.poses.at(static_cast<std::size_t>(station)), station));
+  return stretches;
+}
+
 Result<Outcome> CheckStep::run(const Session& session, const BoardOptions&, const Calibration& before) const {
   Outcome outcome;
   outcome.method = fmt::format("{} of known size, least squares of distances", linescope::name(shape_.shape));
@@ -154,13 +169,10 @@ Result<Outcome> CheckStep::run(const Session& session, const BoardOptions&, cons
   add_shape(outcome, *check);
   Result<void> still;
   if (still_test_) {
-    std::vector<StillStation> stretches;
-    for (int station = 0; station < kMaxStations; ++station)
-      stretches.push_back(still_stretch(session.poses.at(static_cast<std::size_t>(station)), station));
-    const auto resting = check_still(stretches, still_);
-    if (!resting) return tl::unexpected(resting.error());
-    add_still(outcome.quality, *resting);
-    still = above_limit(*resting, still_);
+    const auto stations = check_still(resting(session), still_);
+    if (!stations) return tl::unexpected(stations.error());
+    add_still(outcome.quality, *stations);
+    still = above_limit(*stations, still_);
   }
   outcome.refused = both(above_limit(*check, shape_), still);
   return outcome;

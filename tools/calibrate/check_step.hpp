@@ -32,9 +32,14 @@ class CheckStep : public Step {
   StillOptions& still() { return still_; }
 
  private:
+  std::vector<StillStation> resting(const Session& session) const;
+
   ShapeCheckOptions shape_;
   StillOptions still_;
   bool still_test_ = true;
+  /// 1-based, as on the screens. Empty: the object's, whose body lies on the table; without one, every sensor
+  /// that stood still.
+  std::vector<double> still_stations_;
 };
 
 }  // namespace linescope::calibrate
