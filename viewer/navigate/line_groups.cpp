@@ -25,6 +25,14 @@ FitRow features_of(const Placed& p) {
   return row;
 }
 
+/// Of the quadric over a segment, by the first six features.
+double mean_height(const Placed& p, const Quadric& quadric) {
+  const double x = p.at.x(), y = p.at.y(), a = p.spread.x(), b = p.spread.y();
+  const auto& q = quadric.b;
+  return q[0] + q[1] * x + q[2] * y + q[3] * (x * x + a * a) + q[4] * (x * y + a * b) +
+         q[5] * (y * y + b * b);
+}
+
 /// A segment that counts.
 struct Used {
   Placed place;
@@ -36,7 +44,7 @@ Placed placed(const Patch& patch, const Quadric& quadric, std::size_t i) {
   Placed p;
   p.at = {static_cast<double>(patch.x[i]), static_cast<double>(patch.y[i])};
   p.spread = {static_cast<double>(patch.sx[i]), static_cast<double>(patch.sy[i])};
-  p.error = static_cast<double>(patch.z[i]) - features_of(p).head<6>().dot(quadric.b);
+  p.error = static_cast<double>(patch.z[i]) - mean_height(p, quadric);
   p.at -= p.error * patch.lines[patch.line[i]].shear.cast<double>();
   return p;
 }
