@@ -251,7 +251,7 @@ StatusLine camera_status(const LiveView& live, Nanoseconds now) {
     // is to be done comes first, the card is narrow.
     const std::size_t hint = camera.reason.find("; ");
     if (hint != std::string::npos)
-      return {line.title, line.word, camera.reason.substr(hint + 2), Mood::caution};
+      return {line.title, "check laser", camera.reason.substr(hint + 2), Mood::caution};
     const std::string quality = camera.reason.substr(0, camera.reason.find(','));
     if (!quality.empty()) line.detail += " · " + quality;
     return line;

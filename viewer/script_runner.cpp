@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <QLayout>
+
 #include "common/units.hpp"
 
 namespace linescope {
@@ -98,9 +100,17 @@ void ScriptRunner::carry_out(const Step& step) {
     return window_.scene().set_view_pose(pose);
   }
   if (step.verb == "size")
-    return window_.resize(static_cast<int>(step.number(0)), static_cast<int>(step.number(1)));
+    return set_size(static_cast<int>(step.number(0)), static_cast<int>(step.number(1)));
   const auto saved = window_.save_picture(QString::fromStdString(pictures_ + "/" + step.words[0]));
   if (!saved) fail_at(step, saved.error().message);
+}
+
+void ScriptRunner::set_size(int width, int height) {
+  // How low the window can be depends on its width: what was too low for the former width is asked for again.
+  for (int i = 0; i < 3; ++i) {
+    window_.resize(width, height);
+    window_.layout()->activate();
+  }
 }
 
 void ScriptRunner::fail_at(const Step& step, const std::string& why) {

@@ -32,6 +32,7 @@ class ScriptRunner {
   bool wait_for(const Step& step, Nanoseconds now);
   bool file_done(const Step& step, Nanoseconds now);
   void carry_out(const Step& step);
+  void set_size(int width, int height);
   void fail_at(const Step& step, const std::string& why);
 
   std::deque<Step> steps_;

@@ -79,6 +79,7 @@ GuidanceLayer::GuidanceLayer(const std::function<void(vtkProp*)>& add_actor,
   arrow->SetTipResolution(24);
   arrow->SetShaftResolution(16);
   give(*arrow_, *arrow, palette::kNormal);
+  arrow_->GetProperty()->SetAmbient(0.7);  // looked at along its axis it would be dark
   add_tube(tube_);
   for (vtkActor* actor : {tip_.Get(), axis_line_.Get(), arrow_.Get(), foot_.Get()}) add_actor(actor);
 }

@@ -3,6 +3,7 @@
 // What the formats hold of a TriangleMesh, always in millimetres:
 //   .ply  positions, normals, triangles; "linescope", frame and unit as comments (binary, little endian)
 //   .vtp  everything: also uncertainty, observations, origin of the triangles; frame and unit as field data
+//         and in a comment
 //   .stl  triangles only (every corner three times); frame and unit in the 80 bytes of its header (binary)
 //   .obj  positions, normals, triangles; frame and unit in the first line's comment (text)
 // PLY and VTP open in 3D Slicer, ParaView and MeshLab as they are. A file is complete or not there: it is

@@ -76,12 +76,15 @@ bool written(Writer& writer, vtkPolyData& data, const std::filesystem::path& fil
   return writer.Write() == 1 && writer.GetErrorCode() == 0;
 }
 
-/// VTK's writer has no comments: they are put before what it wrote.
-bool put_before(const std::string& line, const std::filesystem::path& file) {
+/// VTK's writers of text have no comments: the line is put in after the first `lines_before` lines.
+bool put_in(const std::string& line, int lines_before, const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::size_t at = 0;
+  for (int i = 0; i < lines_before; ++i) at = text.find('\n', at) + 1;
+  text.insert(at, line + '\n');
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << line << '\n' << text;
+  out << text;
   return static_cast<bool>(out.flush());
 }
 
@@ -91,7 +94,7 @@ bool write_as(const std::string& suffix, const TriangleMesh& mesh, const std::st
   const std::string words = "linescope: frame " + frame + ", unit mm; research, not for clinical use";
   if (suffix == ".vtp") {
     add_the_rest(mesh, frame, *data);
-    return written(*vtkNew<vtkXMLPolyDataWriter>(), *data, file);
+    return written(*vtkNew<vtkXMLPolyDataWriter>(), *data, file) && put_in("<!-- " + words + " -->", 1, file);
   }
   if (suffix == ".ply") {
     vtkNew<vtkPLYWriter> writer;
@@ -104,7 +107,7 @@ bool write_as(const std::string& suffix, const TriangleMesh& mesh, const std::st
     writer->SetHeader(words.substr(0, 79).c_str());
     return written(*writer, *data, file);
   }
-  return written(*vtkNew<vtkOBJWriter>(), *data, file) && put_before("# " + words, file);
+  return written(*vtkNew<vtkOBJWriter>(), *data, file) && put_in("# " + words, 0, file);
 }
 
 }  // namespace
@@ -118,7 +121,8 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& f
         file.string() + ": meshes are written as .ply, .vtp, .stl or .obj; choose one of these suffixes");
   if (mesh.empty()) return fail(ErrorCode::invalid, file.string() + ": there is no surface yet to write");
   vtkObject::GlobalWarningDisplayOff();
-  const std::filesystem::path part = file.string() + ".part";
+  // With the suffix at its end: VTK puts it there if it is not.
+  const std::filesystem::path part = std::filesystem::path(file).replace_extension(".part" + suffix);
   std::error_code error;
   const bool good = write_as(suffix, mesh, frame, part);
   if (good) std::filesystem::rename(part, file, error);

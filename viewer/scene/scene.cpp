@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "viewer/scene/palette.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kViewAngle = 30;     ///< degrees, vertical
 constexpr double kHarvesterEye = 90;  ///< mm from the tip: behind the tube as drawn
+constexpr double kFrontDepth = 1;     ///< mm: points this far behind the nearest one are still the front
 constexpr double kRegrowBy = 1.3;     ///< growth of a scan after which it is framed again
 
 using Place = std::array<double, 4>;  ///< left, bottom, right, top, 0..1
@@ -246,22 +248,40 @@ bool Scene::refresh() {
   return true;
 }
 
+template <class Visit>
+void Scene::each_pickable(const Visit& visit) const {
+  for (const auto& p : cloud_->points()) visit(p);
+  if (surface_->mesh())
+    for (const auto& p : surface_->mesh()->positions) visit(p);
+}
+
 std::optional<Eigen::Vector3d> Scene::pick(int x, int y, double reach_px) {
   vtkRenderer& r = renderer(View::free);
-  std::optional<Eigen::Vector3d> best;
-  double best_depth = 2;
-  const auto consider = [&](const Eigen::Vector3f& p) {
+  Eigen::Vector3d eye, sight;
+  r.GetActiveCamera()->GetPosition(eye.data());
+  r.GetActiveCamera()->GetDirectionOfProjection(sight.data());
+  const auto off_px = [&](const Eigen::Vector3f& p) {
     r.SetWorldPoint(static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z()), 1);
     r.WorldToDisplay();
-    const double* d = r.GetDisplayPoint();
-    if (std::hypot(d[0] - x, d[1] - y) > reach_px || d[2] >= best_depth) return;
-    best_depth = d[2];
-    best = p.cast<double>();
+    return std::hypot(r.GetDisplayPoint()[0] - x, r.GetDisplayPoint()[1] - y);
   };
-  for (const auto& p : cloud_->points()) consider(p);
-  if (surface_->mesh())
-    for (const auto& p : surface_->mesh()->positions) consider(p);
-  return best;
+  struct Candidate {
+    Eigen::Vector3d place;
+    double off, depth;
+  };
+  std::vector<Candidate> near;
+  double first_depth = std::numeric_limits<double>::infinity();
+  each_pickable([&](const Eigen::Vector3f& p) {
+    const double off = off_px(p), depth = (p.cast<double>() - eye).dot(sight);
+    if (off > reach_px || depth <= 0) return;
+    near.push_back({p.cast<double>(), off, depth});
+    first_depth = std::min(first_depth, depth);
+  });
+  // The front surface counts; on it, what is nearest to the line of sight.
+  std::erase_if(near, [&](const Candidate& c) { return c.depth > first_depth + kFrontDepth; });
+  const auto best = std::min_element(near.begin(), near.end(),
+                                     [](const Candidate& a, const Candidate& b) { return a.off < b.off; });
+  return best == near.end() ? std::nullopt : std::optional(best->place);
 }
 
 }  // namespace linescope

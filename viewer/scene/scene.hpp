@@ -77,10 +77,12 @@ class Scene {
   std::pair<Eigen::Vector3d, double> extent() const;
 
   /// The drawn point or mesh vertex nearest to the line of sight through a pixel of the free view, within
-  /// `reach_px`; the nearest to the eye of those.
+  /// `reach_px`, of those in front (within a millimetre in depth).
   std::optional<Eigen::Vector3d> pick(int x, int y, double reach_px = 6);
 
  private:
+  template <class Visit>
+  void each_pickable(const Visit& visit) const;
   void place_views();
   void aim_axis_views();
   void aim_harvester_view(vtkRenderer& renderer);

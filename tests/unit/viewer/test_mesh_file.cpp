@@ -81,7 +81,7 @@ TEST_F(MeshFiles, WhatCannotBeReadIsSaidInASentence) {
   EXPECT_NE(message("mesh.doc", "x").find(".ply, .vtp, .stl or .obj"), std::string::npos);
   EXPECT_NE(message("broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\n").find("broken.ply"),
             std::string::npos);
-  EXPECT_NE(message("broken.vtp", "<VTKFile").find("cannot be read"), std::string::npos);
+  EXPECT_NE(message("broken.vtp", "<VTKFile").find("broken.vtp"), std::string::npos);
   EXPECT_NE(message("empty.obj", "# nothing\n").find("no triangle"), std::string::npos);
 }
 
