@@ -187,10 +187,12 @@ void declare_reconstruct(ConfigSchema& schema, AcquireOptions& options) {
 void declare_twin(ConfigSchema& schema, TwinChoice& twin) {
   schema.section("twin", "The simulated instrument; used where a source is \"twin\".");
   schema.integer("twin.seed", twin.seed, {.min = 0}, "Same seed, same bytes.");
-  schema.text("twin.phantom", twin.phantom,
-              "condyle, plane, cylinder-DIAMETER, mini-knee, or a mesh (OFF file, in mm).");
-  schema.choice("twin.scenario", twin.scenario, {"demo", "sweeps", "spots", "still"},
-                "What the operator's hand does.");
+  schema.text(
+      "twin.phantom", twin.phantom,
+      "condyle, plane, cylinder-DIAMETER, sphere-DIAMETER, mini-knee, board, or a mesh (OFF file, in mm).");
+  schema.choice("twin.scenario", twin.scenario,
+                {"demo", "sweeps", "spots", "still", "board", "shake", "pivot", "spin"},
+                "What the operator's hand does; the last four are for calibrating.");
   schema.choice("twin.noise", twin.noise, {"ideal", "manufacturer", "thesis"}, "How camera and tracker err.");
   schema.choice("twin.instrument", twin.instrument, {"camera-i", "camera-ii", "camera-ii-320", "near"},
                 "Endoscope and prism: the thesis's, or one for gaps of 5 to 8 mm.");
@@ -202,6 +204,12 @@ void declare_twin(ConfigSchema& schema, TwinChoice& twin) {
                 "Mean distance from the camera to the surface.");
   schema.number("twin.gap_variation_mm", twin.gap_variation_mm, {.unit = "mm", .min = 0, .max = 50},
                 "How far the hand departs from it, slowly, to both sides.");
+  schema.flag("twin.laser", twin.laser, "The laser is on.");
+  schema.number(
+      "twin.led", twin.led, {.min = -1, .max = 1000},
+      "Brightness of the white light, grey levels of a white surface at 15 mm; -1: as twin.noise says.");
+  schema.number("twin.camera_latency_ms", twin.camera_latency_ms, {.unit = "ms", .min = -500, .max = 500},
+                "By how much the pictures' time stamps are late.");
   schema.number("twin.duration_s", twin.duration_s, {.unit = "s", .min = 0, .max = 1e6},
                 "End of the experiment; 0: never.");
   schema.path("twin.truth", twin.truth, "File to which the truth is written (JSON); empty: nowhere.");

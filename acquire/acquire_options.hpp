@@ -84,8 +84,11 @@ struct TwinChoice {
   std::string optics = "preset";  ///< "preset": as `noise` says
   double gap_mm = 15;             ///< mean distance camera - surface
   double gap_variation_mm = 3;    ///< to both sides of it
-  double duration_s = 0;          ///< 0: for ever
-  std::filesystem::path truth;    ///< where to write what really is (JSON), for tests and evaluation
+  bool laser = true;              ///< false: no line in the picture
+  double led = -1;                ///< grey levels; negative: as `noise` says
+  double camera_latency_ms = 0;
+  double duration_s = 0;        ///< 0: for ever
+  std::filesystem::path truth;  ///< where to write what really is (JSON), for tests and evaluation
 };
 
 struct AcquireOptions {

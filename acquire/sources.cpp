@@ -68,6 +68,9 @@ Result<twin::TwinOptions> twin_options(const TwinChoice& choice, Nanoseconds sta
     if (!optics) return tl::unexpected(optics.error());
     o.optics = *optics;
   }
+  if (!choice.laser) o.optics.line.brightness = 0;
+  if (choice.led >= 0) o.optics.light.led_brightness = choice.led;
+  o.instrument.latency = nanoseconds_from_seconds(1e-3 * choice.camera_latency_ms);
   o.hand.gap_mm = choice.gap_mm;
   o.hand.gap_variation_mm = choice.gap_variation_mm;
   return o;
