@@ -9,7 +9,7 @@
 #include "acquire/twin/triangle_phantom.hpp"
 #include "common/exit_code.hpp"
 #include "common/version.hpp"
-#include "tools/mesh/mesh_reader.hpp"
+#include "viewer/scene/mesh_file.hpp"
 
 namespace linescope {
 namespace {
@@ -19,10 +19,11 @@ struct MeshCommand {
   double scale = 1;
 };
 
-twin::TriangleSoup soup_of(const MeshArrays& arrays, double scale) {
+twin::TriangleSoup soup_of(const TriangleMesh& mesh, double scale) {
   twin::TriangleSoup soup;
-  for (const auto& p : arrays.points) soup.points.emplace_back(p[0] * scale, p[1] * scale, p[2] * scale);
-  soup.triangles = arrays.triangles;
+  for (const Eigen::Vector3f& p : mesh.positions) soup.points.emplace_back(p.cast<double>() * scale);
+  for (const auto& t : mesh.triangles)
+    soup.triangles.push_back({static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
   return soup;
 }
 
@@ -32,9 +33,9 @@ ExitCode refuse(const std::string& message) {
 }
 
 ExitCode run(const MeshCommand& command) {
-  const MeshArrays arrays = read_mesh(command.in);
-  if (!arrays.fault.empty()) return refuse(arrays.fault);
-  const twin::TriangleSoup soup = soup_of(arrays, command.scale);
+  const auto mesh = read_mesh(command.in, Corners::merged);
+  if (!mesh) return refuse(mesh.error().message);
+  const twin::TriangleSoup soup = soup_of(*mesh, command.scale);
   if (auto valid = validate(soup); !valid) {
     const bool unit = valid.error().message.find("looks like metres") != std::string::npos;
     return refuse(fmt::format("{}: {}{}", command.in, valid.error().message, unit ? " (--scale 1000)" : ""));

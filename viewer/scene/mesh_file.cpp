@@ -128,7 +128,7 @@ void copy_triangles(vtkPolyData& data, TriangleMesh& mesh) {
 
 }  // namespace
 
-Result<TriangleMesh> read_mesh(const std::filesystem::path& file) {
+Result<TriangleMesh> read_mesh(const std::filesystem::path& file, Corners corners) {
   const auto refused = [&](ErrorCode code, const char* what) {
     return fail(code, file.string() + ": " + what);
   };
@@ -136,12 +136,12 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) return refused(ErrorCode::not_found, "no such file");
   const auto reader = reader_for(file);
   if (!reader)
-    return refused(ErrorCode::unsupported, "no mesh file that is known here: use .ply, .vtp, .stl or .obj");
+    return refused(ErrorCode::unsupported, "no mesh file that is known here: use .stl, .ply, .obj or .vtp");
   if (mesh_suffix(file) == ".ply")
     if (const std::string why = ply_fault(contents_of(file)); !why.empty())
       return refused(ErrorCode::unreadable, (why + "; save it again").c_str());
   vtkObject::GlobalWarningDisplayOff();
-  const auto data = read_triangles(*reader, mesh_suffix(file) == ".stl");
+  const auto data = read_triangles(*reader, corners == Corners::merged || mesh_suffix(file) == ".stl");
   if (!data)
     return refused(ErrorCode::unreadable,
                    "it cannot be read as what its suffix says; save it again, or under the right suffix");
@@ -150,7 +150,7 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file) {
   copy_vertices(*shaded, mesh);
   copy_triangles(*shaded, mesh);
   if (mesh.empty())
-    return refused(ErrorCode::unreadable, "there is no triangle in it; is the file complete?");
+    return refused(ErrorCode::unreadable, "it is empty, there is no triangle in it; is the file complete?");
   for (const Eigen::Vector3f& p : mesh.positions)
     if (!p.allFinite()) return refused(ErrorCode::invalid, "a coordinate is not a finite number");
   return mesh;

@@ -22,10 +22,14 @@ namespace linescope {
 Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& file,
                         const std::string& frame);
 
-/// Polygons and strips are split into triangles, points at the same place are made one when the format
-/// repeats every corner (STL), missing normals are computed. Triangles without area are left out. Refused
-/// with a sentence: no such file, another suffix, not readable, no triangle in it, coordinates that are not
-/// finite.
-Result<TriangleMesh> read_mesh(const std::filesystem::path& file);
+enum class Corners {
+  as_stored,  ///< points at the same place are made one only when the format repeats every corner (STL)
+  merged,     ///< in every format: for bodies, whose triangles must meet
+};
+
+/// Polygons and strips are split into triangles, missing normals are computed. Triangles without area are
+/// left out. Refused with a sentence: no such file, another suffix, not readable, no triangle in it,
+/// coordinates that are not finite.
+Result<TriangleMesh> read_mesh(const std::filesystem::path& file, Corners corners = Corners::as_stored);
 
 }  // namespace linescope
