@@ -25,6 +25,7 @@ constexpr int kSideWidth = 348;
 constexpr int kSideShare = 27, kViewsShare = 73;  ///< of the window's width
 constexpr double kSmallNumerals = 44, kLargeNumerals = 94;
 constexpr int kMessagesKept = 500;
+constexpr double kLongDrawMs = 30;
 
 }  // namespace
 
@@ -133,6 +134,11 @@ void MainWindow::add_keys() {
 
 void MainWindow::set_moment(Moment moment) {
   moment_ = moment;
+  // The pages that are not shown ask for no room.
+  for (int i = 0; i < pages_->count(); ++i) {
+    const auto policy = i == static_cast<int>(moment) ? QSizePolicy::Preferred : QSizePolicy::Ignored;
+    pages_->widget(i)->setSizePolicy(policy, policy);
+  }
   pages_->setCurrentIndex(static_cast<int>(moment));
   angle_->set_numeral_size(moment == Moment::navigate ? kLargeNumerals : kSmallNumerals);
   angle_->setVisible(moment != Moment::surface);  // there the room belongs to figures of the surface
@@ -171,6 +177,13 @@ void MainWindow::show_state(const ViewState& state, const std::vector<LineNews>&
   last_draw_ms_ = static_cast<double>(took.nsecsElapsed()) * 1e-6;
   draw_.add(last_draw_ms_);
   since_draw_.restart();
+  if (last_draw_ms_ < kLongDrawMs) return;
+  // The number was right before a picture that took long; it must still be when it is painted.
+  const Nanoseconds later = monotonic_now();
+  shown_angle_ = angle_readout(state, later, guidance_);
+  shown_at_ = later;
+  show_guidance(state, shown_angle_, later);
+  angle_->show_angle(shown_angle_);
 }
 
 void MainWindow::show_news(const std::vector<LineNews>& news) {

@@ -79,7 +79,8 @@ GuidanceLayer::GuidanceLayer(const std::function<void(vtkProp*)>& add_actor,
   arrow->SetTipResolution(24);
   arrow->SetShaftResolution(16);
   give(*arrow_, *arrow, palette::kNormal);
-  arrow_->GetProperty()->SetAmbient(0.7);  // looked at along its axis it would be dark
+  arrow_->GetProperty()->SetAmbient(0.6);  // looked at along its axis it would be dark
+  arrow_->GetProperty()->SetDiffuse(0.4);
   add_tube(tube_);
   for (vtkActor* actor : {tip_.Get(), axis_line_.Get(), arrow_.Get(), foot_.Get()}) add_actor(actor);
 }
@@ -102,8 +103,8 @@ void GuidanceLayer::set_harvester(const GuidanceInput& input) {
   const Rgb& colour = input.on_target ? palette::kOnTarget : palette::kHarvester;
   tube_->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   tube_->SetUserMatrix(placement(input.tip + kConeLength * input.axis, input.axis, kTubeLength, kTubeRadius));
-  axis_line_->SetUserMatrix(
-      placement(input.tip - kAxisAhead * input.axis, input.axis, kAxisAhead + kConeLength + kTubeLength, 0.25));
+  axis_line_->SetUserMatrix(placement(input.tip - kAxisAhead * input.axis, input.axis,
+                                      kAxisAhead + kConeLength + kTubeLength, 0.25));
   tip_->SetUserMatrix(placement(input.tip, input.axis, kTipRadius, kTipRadius));
 }
 

@@ -175,7 +175,11 @@ Eigen::Vector3d Scene::long_axis() const {
     const Eigen::Vector3d from = points[i].cast<double>() - centre;
     spread += from * from.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  // Of the two directions always the same one, so that the view does not depend on the last digits.
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0 ? Eigen::Vector3d(-axis) : axis;
 }
 
 void Scene::reset_view() {
