@@ -15,7 +15,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t kMostFolds = 12;
+constexpr double kScatter = 2;        ///< jackknife over model from which pictures count as scattered
 constexpr double kAlwaysGood = 0.25;  ///< px: a picture this good is no outlier, however good the others are
 
 using Values = std::array<double, 9>;  ///< fx fy cx cy k1 k2 p1 p2 k3
@@ -83,6 +83,16 @@ Values jackknife_deviations(const std::vector<Values>& without_one) {
   return deviations;
 }
 
+/// OpenCV divides the sum of squares by the number of corners less that of the unknowns, though each corner
+/// gives two coordinates: its deviations are larger by up to the root of two than what happens (seen over a
+/// hundred seeds).
+double share_of_deviation(const std::vector<std::vector<cv::Point2f>>& images, int intrinsics) {
+  double corners = 0;
+  for (const auto& image : images) corners += static_cast<double>(image.size());
+  const double unknowns = intrinsics + 6.0 * static_cast<double>(images.size());
+  return std::sqrt(std::max(0.0, corners - unknowns) / (2 * corners - unknowns));
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -118,13 +128,15 @@ Result<Solved> CameraFitter::solve(const Indices& pictures) const {
     solved.rms =
         cv::calibrateCamera(objects, images, {session_.width, session_.height}, k, d, rotations, translations,
                             deviations, ignored, per_view, flags_for(options_.coefficients),
-                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 60, 1e-10});
+                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-9});
   } catch (const cv::Exception&) {
     return tl::unexpected(refusal(Refusal::too_little_variation, "the pictures fix no focal length",
                                   "Tilt the board by 20 to 40 degrees, to all sides"));
   }
   solved.camera = camera_from(k, d, session_.width, session_.height);
-  for (int i = 0; i < 9; ++i) solved.deviations[static_cast<std::size_t>(i)] = deviations.at<double>(i);
+  const double share = share_of_deviation(images, 4 + options_.coefficients);
+  for (int i = 0; i < 9; ++i)
+    solved.deviations[static_cast<std::size_t>(i)] = share * deviations.at<double>(i);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     solved.per_view.push_back(per_view.at<double>(static_cast<int>(i)));
     auto pose = board_pose(board_, solved.camera, session_.observations[pictures[i]].board);
@@ -218,7 +230,7 @@ void CameraFitter::add_held_out(const Solved& others, std::size_t fold, std::siz
 /// scatter between pictures: board not flat, motion blur. OpenCV's own deviations know independent corner
 /// noise only. The larger one is stated.
 void CameraFitter::leave_out(const Solved& all) {
-  const std::size_t folds = std::min(kMostFolds, fit_.used.size());
+  const std::size_t folds = std::min(static_cast<std::size_t>(options_.folds), fit_.used.size());
   double sum = 0;
   std::size_t points = 0;
   std::vector<Values> moved;
@@ -233,10 +245,18 @@ void CameraFitter::leave_out(const Solved& all) {
   }
   fit_.quality.held_out = points == 0 ? kUnknown : std::sqrt(sum / static_cast<double>(points));
   const Values jackknife = jackknife_deviations(moved), values = values_of(all.camera);
+  double ratio = 0;
+  for (std::size_t i = 0; i < 4; ++i) ratio += jackknife[i] / all.deviations[i] / 4;
+  const bool scattered = ratio > kScatter;
+  if (scattered)
+    fit_.quality.remarks.push_back(
+        "The pictures disagree by more than the noise of their corners (board not flat, blur): the "
+        "deviations are those "
+        "between pictures.");
   static constexpr std::array<const char*, 9> kNames{"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
   for (std::size_t i = 0; i < (options_.coefficients == 4 ? 8U : 9U); ++i)
     fit_.quality.parameters.push_back(
-        {kNames[i], values[i], std::max(all.deviations[i], jackknife[i]), i < 4 ? "px" : ""});
+        {kNames[i], values[i], scattered ? jackknife[i] : all.deviations[i], i < 4 ? "px" : ""});
 }
 
 void CameraFitter::describe(const Solved& solved) {
@@ -286,6 +306,7 @@ Result<void> validate(const CameraFitOptions& o) {
   if (o.coefficients != 4 && o.coefficients != 5)
     return fail(ErrorCode::invalid,
                 fmt::format("camera.coefficients = {}: 4 (k1 k2 p1 p2) or 5 (and k3)", o.coefficients));
+  if (o.folds < 2) return fail(ErrorCode::invalid, fmt::format("camera.folds = {}: at least 2", o.folds));
   return {};
 }
 

@@ -17,6 +17,7 @@ struct CameraFitOptions {
   double max_focal_sd = 0.01;  ///< standard deviation of the focal length over the focal length
   double max_rms_px = 0.6;     ///< residual
   double max_held_out_px = 0.9;
+  int folds = 12;  ///< groups of pictures left out in turn for the held-out error; at most one each
   double outlier_factor = 3;  ///< a picture whose RMS is this many times the median is left out
 };
 Result<void> validate(const CameraFitOptions& options);

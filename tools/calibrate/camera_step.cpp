@@ -36,6 +36,8 @@ class CameraStep final : public Step {
     schema.number("camera.max_rms_px", o_.max_rms_px, {.unit = "px", .min = 0, .max = 100}, "Residual.");
     schema.number("camera.max_held_out_px", o_.max_held_out_px, {.unit = "px", .min = 0, .max = 100},
                   "Error on corners that were in no fit.");
+    schema.integer("camera.folds", o_.folds, {.min = 2, .max = 1000},
+                   "Groups of pictures left out in turn for the held-out error.");
     schema.number("camera.outlier_factor", o_.outlier_factor, {.min = 1.5, .max = 100},
                   "A picture this many times worse than the median is left out.");
     schema.number("camera.every_ms", every_ms_, {.unit = "ms", .min = 0, .max = 60000},
