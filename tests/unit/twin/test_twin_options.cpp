@@ -50,10 +50,11 @@ TEST(TwinOptions, PrismThatReflectsTotallyIsRefused) {
 
 TEST(TwinOptions, UnknownNamesListTheKnownOnes) {
   EXPECT_THAT(instrument_from_name("camera-iii").error().message,
-              HasSubstr("camera-i, camera-ii or camera-ii-320"));
+              HasSubstr("camera-i, camera-ii, camera-ii-320 or near"));
   EXPECT_THAT(optics_from_name("real").error().message, HasSubstr("ideal, clean, full or trouble"));
   EXPECT_THAT(tracker_noise_from_name("none").error().message, HasSubstr("ideal, manufacturer or thesis"));
-  EXPECT_THAT(scenario_from_name("dance").error().message, HasSubstr("demo, sweeps, spots or still"));
+  EXPECT_THAT(scenario_from_name("dance").error().message,
+              HasSubstr("calibrate board, shake, pivot or spin"));
   TwinOptions options;
   EXPECT_THAT(apply_noise_preset(options, "loud").error().message,
               HasSubstr("ideal, manufacturer or thesis"));
