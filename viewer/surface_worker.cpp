@@ -44,6 +44,8 @@ std::string name(MeshMethod method) {
 struct SurfaceWorker::Work {
   MesherOptions options;
   std::unique_ptr<Mesher> mesher;
+  std::unique_ptr<Mesher> former_mesher;  ///< while a change is not settled
+  MesherOptions former_options;
   HeldLines lines;  ///< all of them, for other options
   std::uint64_t version = 0;
   std::string fault;
@@ -121,17 +123,32 @@ void SurfaceWorker::change(const MesherOptions& wanted) {
   Work& work = *work_;
   work.changed = true;
   give_up_ = false;
+  change_share_ = 0;
   auto made = make_mesher(wanted);
   work.fault = made ? std::string() : made.error().message;
-  if (!made) return;
+  if (!made) {
+    change_share_ = kNotChanging;
+    return;
+  }
   for (std::size_t i = 0; i < work.lines.size() && !give_up_; ++i) {
     Work::add_line(**made, *work.lines[i]);
     change_share_ = static_cast<double>(i + 1) / static_cast<double>(work.lines.size());
   }
+  work.former_options = std::exchange(work.options, wanted);
+  work.former_mesher = std::exchange(work.mesher, std::move(*made));
+}
+
+std::shared_ptr<const SurfaceView> SurfaceWorker::make_and_settle() {
+  Work& work = *work_;
+  auto view = work.make();
+  if (work.former_mesher && give_up_.exchange(false)) {
+    work.options = work.former_options;
+    work.mesher = std::move(work.former_mesher);
+    view = work.make();
+  }
+  work.former_mesher.reset();
   change_share_ = kNotChanging;
-  if (give_up_.exchange(false)) return;
-  work.options = wanted;
-  work.mesher = std::move(*made);
+  return view;
 }
 
 void SurfaceWorker::run(const std::stop_token& stop) {
@@ -152,7 +169,9 @@ void SurfaceWorker::run(const std::stop_token& stop) {
     }
     for (const LineNews& n : news) work_->take(n);
     if (options) change(*options);
-    if (work_->changed && monotonic_now() - work_->made_at >= kMeshEvery) sink_(work_->make());
+    // A change is settled at once: lines that come later belong to one mesher only.
+    if (work_->changed && (options || monotonic_now() - work_->made_at >= kMeshEvery))
+      sink_(make_and_settle());
   }
 }
 

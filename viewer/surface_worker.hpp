@@ -40,6 +40,7 @@ class SurfaceWorker {
   struct Work;
   static constexpr double kNotChanging = -1;
   void change(const MesherOptions& wanted);
+  std::shared_ptr<const SurfaceView> make_and_settle();
   void run(const std::stop_token& stop);
 
   std::mutex mutex_;
