@@ -41,9 +41,6 @@ bool rows_are_smooth(cv::Size size, const std::vector<cv::Point2f>& c) {
   return true;
 }
 
-/// As it is, then with its contrast evened out: under a laser line or a light source the board is often
-/// darkly and unevenly lit. The thorough search finds most boards but misplaces a corner now and then; the
-/// plain one comes last.
 /// The finder's own places bend with a lens that bends much (0.1 px at camera II's distortion); where the
 /// gradients close to a corner meet does not. The window stays well inside the squares around it.
 void settle_on_gradients(const cv::Mat& grey, cv::Size size, std::vector<cv::Point2f>& corners) {
@@ -63,6 +60,9 @@ void settle_on_gradients(const cv::Mat& grey, cv::Size size, std::vector<cv::Poi
   }
 }
 
+/// As it is, then with its contrast evened out: under a laser line or a light source the board is often
+/// darkly and unevenly lit. The thorough search finds most boards but misplaces a corner now and then;
+/// OpenCV's older detector comes last.
 bool chessboard_corners(const cv::Mat& grey, cv::Size size, std::vector<cv::Point2f>& corners) {
   const auto found = [&](const cv::Mat& picture, int flags) {
     return cv::findChessboardCornersSB(picture, size, corners, flags | cv::CALIB_CB_ACCURACY) &&
