@@ -79,6 +79,8 @@ void MainWindow::act_on_surface(OperatorAction action) {
       return surface_page_->step_interval(true);
     case OperatorAction::coarser:
       return surface_page_->step_interval(false);
+    case OperatorAction::close_holes:
+      return surface_page_->toggle_holes();
     default:
       break;
   }

@@ -93,6 +93,8 @@ QJsonObject MainWindow::displayed_state() const {
       {"harvester_visible", scene.guidance().harvester_visible()},
       {"harvester_ghosted", scene.guidance().harvester_ghosted()},
       {"wanted_interval_mm", surface_page_->options().interval},
+      {"closing_holes_mm", surface_page_->options().fill_holes_up_to},
+      {"filled_triangles", number(scene.surface().filled_triangles())},
       {"view_area", json(QRect(views_->mapTo(this, QPoint()), views_->size()))},
       {"measurement", surface_page_->measurement()},
       {"measured_mm", measured_.empty() ? 0 : measured_.back()},

@@ -22,6 +22,8 @@ constexpr std::array kActions = {
     ActionInfo{A::method, "method", "M", "Next method to make the surface"},
     ActionInfo{A::finer, "finer", "[", "Next smaller cubic interval"},
     ActionInfo{A::coarser, "coarser", "]", "Next larger cubic interval"},
+    ActionInfo{A::close_holes, "close-holes", "O",
+               "Close small holes of the one-sided surface, in another colour"},
     ActionInfo{A::layout_one, "layout-1", "F5", "One view"},
     ActionInfo{A::layout_one_and_three, "layout-1+3", "F6", "One view and three along the object's axes"},
     ActionInfo{A::layout_two_by_two, "layout-2x2", "F7", "Four views, one of them along the harvester"},

@@ -23,6 +23,7 @@ enum class OperatorAction : std::uint8_t {
   method,
   finer,
   coarser,
+  close_holes,
   layout_one,
   layout_one_and_three,
   layout_two_by_two,

@@ -20,8 +20,17 @@ constexpr OperatorAction kShownActions[kShown] = {OperatorAction::show_points, O
                                                   OperatorAction::show_wireframe};
 constexpr MeshMethod kMethods[] = {MeshMethod::proposed_cubes, MeshMethod::implicit,
                                    MeshMethod::classical_cubes};
+constexpr double kLargestRim = 20;  // mm: a hole some 6 mm across
 constexpr ColourBy kColours[] = {ColourBy::plain, ColourBy::height, ColourBy::uncertainty, ColourBy::age,
                                  ColourBy::coverage};
+
+std::string size_of(const SurfaceView& s) {
+  const auto filled = std::count(s.mesh->origin.begin(), s.mesh->origin.end(), TriangleOrigin::filled);
+  return fmt::format(
+      "{} triangles{}, {} grid points", grouped(s.mesh->triangle_count()),
+      filled > 0 ? fmt::format(" ({} close holes)", grouped(static_cast<std::size_t>(filled))) : "",
+      grouped(s.grid ? s.grid->size() : 0));
+}
 
 }  // namespace
 
@@ -82,6 +91,11 @@ void SurfacePage::add_making() {
   row->addWidget(label);
   row->addWidget(interval_, 1);
   column_->addLayout(row);
+  holes_ = new QCheckBox("Close small holes", this);
+  holes_->setToolTip(tooltip(OperatorAction::close_holes));
+  column_->addWidget(holes_);
+  mirror_holes();
+  connect(holes_, &QCheckBox::toggled, this, [this] { options_changed(); });
   connect(method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] { options_changed(); });
   connect(interval_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
           [this] { options_changed(); });
@@ -109,6 +123,8 @@ void SurfacePage::add_colours() {
 void SurfacePage::options_changed() {
   options_.method = static_cast<MeshMethod>(method_->currentData().toInt());
   options_.interval = interval_->value();
+  options_.fill_holes_up_to = holes_->isChecked() ? kLargestRim : 0;
+  mirror_holes();
   hooks_.make(options_);
 }
 
@@ -133,9 +149,21 @@ void SurfacePage::toggle_normals() {
   normals_->toggle();
 }
 
+void SurfacePage::toggle_holes() {
+  if (holes_->isEnabled()) holes_->toggle();
+}
+
+/// The marching cubes of the thesis make a closed skin: there is nothing to close.
+void SurfacePage::mirror_holes() {
+  const QSignalBlocker quiet(holes_);
+  holes_->setChecked(options_.fill_holes_up_to > 0);
+  holes_->setEnabled(options_.method == MeshMethod::implicit);
+}
+
 void SurfacePage::set_options(const MesherOptions& options) {
   const QSignalBlocker quiet_method(method_), quiet_interval(interval_);
   options_ = options;
+  mirror_holes();
   method_->setCurrentIndex(method_->findData(static_cast<int>(options.method)));
   interval_->setValue(options.interval);
 }
@@ -166,10 +194,7 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
       fmt::format("{} points, {} lines{}", grouped(s.points), grouped(s.lines),
                   s.points_refused > 0 ? fmt::format(" ({} refused)", grouped(s.points_refused)) : "")));
   const bool any = s.mesh && !s.mesh->empty();
-  size_->set_text(any ? QString::fromStdString(fmt::format("{} triangles, {} grid points",
-                                                           grouped(s.mesh->triangle_count()),
-                                                           grouped(s.grid ? s.grid->size() : 0)))
-                      : QStringLiteral("– –  no surface yet"));
+  size_->set_text(any ? QString::fromStdString(size_of(s)) : QStringLiteral("– –  no surface yet"));
   area_->set_text(
       any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
           : QStringLiteral("– –"));

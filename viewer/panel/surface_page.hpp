@@ -35,6 +35,7 @@ class SurfacePage : public SidePage {
   void next_method();
   void step_interval(bool finer);
   void toggle_normals();
+  void toggle_holes();
   void show_measurement(const QString& text);
 
   /// The surface was made otherwise than here: a file.
@@ -54,6 +55,7 @@ class SurfacePage : public SidePage {
   void add_making();
   void add_colours();
   void options_changed();
+  void mirror_holes();
 
   Hooks hooks_;
   MesherOptions options_;
@@ -61,7 +63,7 @@ class SurfacePage : public SidePage {
   std::array<QPushButton*, kShown> show_buttons_{};
   QComboBox *method_, *colour_;
   QDoubleSpinBox* interval_;
-  QCheckBox* normals_;
+  QCheckBox *normals_, *holes_;
   ElidedLabel *made_of_, *size_, *area_, *drawn_, *measured_;
   EvaluationBox* evaluation_;
 };

@@ -30,15 +30,18 @@ vtkSmartPointer<vtkFloatArray> float_array(const std::vector<Eigen::Vector3f>& v
   return array;
 }
 
-vtkSmartPointer<vtkCellArray> triangle_cells(const TriangleMesh& mesh) {
+/// Triangles of one origin; a mesh that names none was measured.
+vtkSmartPointer<vtkCellArray> triangle_cells(const TriangleMesh& mesh, TriangleOrigin origin) {
   vtkNew<vtkIdTypeArray> offsets, corners;
-  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
-  offsets->SetNumberOfValues(count + 1);
-  corners->SetNumberOfValues(3 * count);
-  for (vtkIdType t = 0; t <= count; ++t) offsets->SetValue(t, 3 * t);
-  for (vtkIdType t = 0; t < count; ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      corners->SetValue(3 * t + static_cast<vtkIdType>(k), mesh.triangles[static_cast<std::size_t>(t)][k]);
+  const auto all = static_cast<vtkIdType>(mesh.triangles.size());
+  offsets->Allocate(all + 1);
+  corners->Allocate(3 * all);
+  offsets->InsertNextValue(0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if ((t < mesh.origin.size() ? mesh.origin[t] : TriangleOrigin::measured) != origin) continue;
+    for (const std::uint32_t corner : mesh.triangles[t]) corners->InsertNextValue(corner);
+    offsets->InsertNextValue(corners->GetNumberOfValues());
+  }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, corners);
   return cells;
@@ -66,6 +69,10 @@ SurfaceLayer::SurfaceLayer(const std::function<void(vtkProp*)>& add_actor) {
   vtkNew<vtkProperty> back;
   set_colour(*back, palette::kInside);
   actor_->SetBackfaceProperty(back);
+  filled_mapper_->SetInputData(filled_data_);
+  filled_mapper_->ScalarVisibilityOff();
+  filled_actor_->SetMapper(filled_mapper_);
+  set_colour(*filled_actor_->GetProperty(), palette::kFilled);
   grid_mapper_->SetInputData(grid_data_);
   grid_mapper_->ScalarVisibilityOff();
   grid_actor_->SetMapper(grid_mapper_);
@@ -74,6 +81,7 @@ SurfaceLayer::SurfaceLayer(const std::function<void(vtkProp*)>& add_actor) {
   grid_actor_->GetProperty()->LightingOff();
   grid_actor_->VisibilityOff();
   add_actor(actor_);
+  add_actor(filled_actor_);
   add_actor(grid_actor_);
 }
 
@@ -84,11 +92,13 @@ void SurfaceLayer::set(const SurfaceView& view) {
 }
 
 void SurfaceLayer::show(SurfaceStyle style) {
-  actor_->SetVisibility(style != SurfaceStyle::hidden);
-  if (style == SurfaceStyle::wireframe)
-    actor_->GetProperty()->SetRepresentationToWireframe();
-  else
-    actor_->GetProperty()->SetRepresentationToSurface();
+  for (vtkActor* actor : {actor_.Get(), filled_actor_.Get()}) {
+    actor->SetVisibility(style != SurfaceStyle::hidden);
+    if (style == SurfaceStyle::wireframe)
+      actor->GetProperty()->SetRepresentationToWireframe();
+    else
+      actor->GetProperty()->SetRepresentationToSurface();
+  }
   dirty_ = true;
 }
 
@@ -98,10 +108,12 @@ void SurfaceLayer::show_grid(bool visible) {
 }
 
 void SurfaceLayer::use_normals(bool smooth) {
-  if (smooth)
-    actor_->GetProperty()->SetInterpolationToPhong();
-  else
-    actor_->GetProperty()->SetInterpolationToFlat();
+  for (vtkActor* actor : {actor_.Get(), filled_actor_.Get()}) {
+    if (smooth)
+      actor->GetProperty()->SetInterpolationToPhong();
+    else
+      actor->GetProperty()->SetInterpolationToFlat();
+  }
   dirty_ = true;
 }
 
@@ -113,10 +125,20 @@ void SurfaceLayer::colour_by(ColourBy what, const Eigen::Vector3d& outward) {
 
 void SurfaceLayer::fill_mesh() {
   triangles_ = mesh_ ? mesh_->triangle_count() : 0;
-  if (!mesh_) return data_->Initialize();
-  data_->SetPoints(points_of(mesh_->positions));
-  data_->SetPolys(triangle_cells(*mesh_));
-  data_->GetPointData()->SetNormals(float_array(mesh_->normals));
+  filled_ = 0;
+  if (!mesh_) {
+    filled_data_->Initialize();
+    return data_->Initialize();
+  }
+  const auto points = points_of(mesh_->positions);
+  const auto normals = float_array(mesh_->normals);
+  for (const auto& [data, origin] :
+       {std::pair{data_.Get(), TriangleOrigin::measured}, {filled_data_.Get(), TriangleOrigin::filled}}) {
+    data->SetPoints(points);
+    data->SetPolys(triangle_cells(*mesh_, origin));
+    data->GetPointData()->SetNormals(normals);
+  }
+  filled_ = static_cast<std::size_t>(filled_data_->GetNumberOfPolys());
   fill_scalars();
 }
 

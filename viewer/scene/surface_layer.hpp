@@ -30,6 +30,9 @@ class SurfaceLayer {
   void colour_by(ColourBy what, const Eigen::Vector3d& outward);
 
   std::size_t triangles() const { return triangles_; }
+  std::size_t filled_triangles() const {
+    return filled_;
+  }  ///< of these: close holes, in a colour of their own
   std::size_t grid_points() const { return grid_count_; }
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
 
@@ -42,13 +45,13 @@ class SurfaceLayer {
 
   std::shared_ptr<const TriangleMesh> mesh_;
   std::shared_ptr<const std::vector<Eigen::Vector3f>> grid_;
-  vtkNew<vtkPolyData> data_, grid_data_;
-  vtkNew<vtkPolyDataMapper> mapper_, grid_mapper_;
-  vtkNew<vtkActor> actor_, grid_actor_;
+  vtkNew<vtkPolyData> data_, filled_data_, grid_data_;
+  vtkNew<vtkPolyDataMapper> mapper_, filled_mapper_, grid_mapper_;
+  vtkNew<vtkActor> actor_, filled_actor_, grid_actor_;
   vtkSmartPointer<vtkLookupTable> scale_ = colour_scale();
   ColourBy colour_ = ColourBy::plain;
   Eigen::Vector3d outward_{0, 0, 1};
-  std::size_t triangles_ = 0, grid_count_ = 0;
+  std::size_t triangles_ = 0, filled_ = 0, grid_count_ = 0;
   bool new_data_ = false, dirty_ = true;
 };
 

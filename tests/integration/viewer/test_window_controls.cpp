@@ -42,6 +42,7 @@ const KeyCase kKeys[] = {
     {"bracketright", "coarser", [](auto&, auto& s) { return number(s, "surface_interval_mm") == 2.54; }},
     {"bracketleft", "finer", [](auto&, auto& s) { return number(s, "surface_interval_mm") == 1.27; }},
     {"m", "method", [](auto& b, auto& s) { return text(b, "surface_method") != text(s, "surface_method"); }},
+    {"o", "close holes", [](auto&, auto& s) { return number(s, "closing_holes_mm") == 20; }},
     {"F7", "2x2", [](auto&, auto& s) { return number(s, "views") == 4 && number(s, "layout") == 2; }},
     {"F6", "1+3", [](auto&, auto& s) { return number(s, "views") == 4 && number(s, "layout") == 1; }},
     {"F5", "one view", [](auto&, auto& s) { return number(s, "views") == 1; }},

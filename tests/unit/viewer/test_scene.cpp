@@ -1,6 +1,7 @@
 // The scene's parts that can be checked without drawing.
 #include <gtest/gtest.h>
 #include <vtkNew.h>
+#include <vtkProperty.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -133,6 +134,33 @@ TEST(SurfaceLayer, ShowsTheMeshItWasGiven) {
   vtkNew<vtkIdList> corners;
   data->GetCellPoints(1, corners);
   EXPECT_EQ(corners->GetId(2), 3);
+}
+
+TEST(SurfaceLayer, WhatClosesAHoleIsDrawnInAColourOfItsOwn) {
+  std::vector<vtkProp*> props;
+  SurfaceLayer layer([&](vtkProp* p) { props.push_back(p); });
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh->normals.assign(4, {0, 0, 1});
+  mesh->uncertainty.assign(4, 0.1F);
+  mesh->observations.assign(4, 5);
+  mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh->origin = {TriangleOrigin::measured, TriangleOrigin::filled};
+  SurfaceView view;
+  view.mesh = mesh;
+  layer.set(view);
+  layer.refresh();
+  EXPECT_EQ(layer.triangles(), 2u);
+  EXPECT_EQ(layer.filled_triangles(), 1u);
+  auto* measured = vtkActor::SafeDownCast(props[0]);
+  auto* filled = vtkActor::SafeDownCast(props[1]);
+  ASSERT_TRUE(measured != nullptr && filled != nullptr);
+  EXPECT_EQ(vtkPolyData::SafeDownCast(measured->GetMapper()->GetInput())->GetNumberOfPolys(), 1);
+  EXPECT_EQ(vtkPolyData::SafeDownCast(filled->GetMapper()->GetInput())->GetNumberOfPolys(), 1);
+  const double *a = measured->GetProperty()->GetColor(), *b = filled->GetProperty()->GetColor();
+  EXPECT_GT(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 0.3);
+  layer.show(SurfaceStyle::hidden);
+  EXPECT_FALSE(filled->GetVisibility());
 }
 
 TEST(GuidanceLayer, GhostsAndHides) {
