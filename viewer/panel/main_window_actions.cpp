@@ -35,7 +35,7 @@ void MainWindow::act(OperatorAction action) {
     default:
       break;
   }
-  if (action >= OperatorAction::show_points && action <= OperatorAction::coarser)
+  if (action >= OperatorAction::show_points && action <= OperatorAction::close_holes)
     return act_on_surface(action);
   if (action >= OperatorAction::layout_one && action <= OperatorAction::flip_harvester)
     return act_on_views(action);

@@ -136,7 +136,7 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file, Corners corner
   if (!std::filesystem::is_regular_file(file, error)) return refused(ErrorCode::not_found, "no such file");
   const auto reader = reader_for(file);
   if (!reader)
-    return refused(ErrorCode::unsupported, "no mesh file that is known here: use .stl, .ply, .obj or .vtp");
+    return refused(ErrorCode::unsupported, "no mesh file that is known here: use .ply, .vtp, .stl or .obj");
   if (mesh_suffix(file) == ".ply")
     if (const std::string why = ply_fault(contents_of(file)); !why.empty())
       return refused(ErrorCode::unreadable, (why + "; save it again").c_str());

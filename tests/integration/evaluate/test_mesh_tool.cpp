@@ -138,7 +138,7 @@ TEST_F(MeshTool, EmptyBrokenAndUnknownFilesAreRefusedInOneSentence) {
   EXPECT_EQ(std::count(broken.err.begin(), broken.err.end(), '\n'), 1) << broken.err;
   const Outcome unknown = convert("box.step", "ISO-10303-21;");
   EXPECT_EQ(unknown.code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr(".stl, .ply, .obj or .vtp"));
+  EXPECT_THAT(unknown.err, HasSubstr(".ply, .vtp, .stl or .obj"));
 }
 
 }  // namespace
