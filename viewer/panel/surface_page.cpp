@@ -91,9 +91,9 @@ void SurfacePage::add_making() {
   row->addWidget(label);
   row->addWidget(interval_, 1);
   column_->addLayout(row);
-  holes_ = new QCheckBox("Close small holes", this);
+  holes_ = new QCheckBox("Close holes", this);
   holes_->setToolTip(tooltip(OperatorAction::close_holes));
-  column_->addWidget(holes_);
+  row->addWidget(holes_);
   mirror_holes();
   connect(holes_, &QCheckBox::toggled, this, [this] { options_changed(); });
   connect(method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] { options_changed(); });
