@@ -45,7 +45,7 @@ struct AngleReadout {
 /// The limits within which the harvester counts as on target.
 struct Tolerance {
   double angle_deg = 3;
-  double distance_mm = 3;
+  double distance_mm = 1;
   bool operator==(const Tolerance&) const = default;
 };
 

@@ -49,8 +49,10 @@ void NavigatePage::add_tolerance() {
   auto* row = new QHBoxLayout;
   auto* label = new QLabel("Tolerance", this);
   label->setFixedWidth(scaled(92));
-  angle_limit_ = limit_box(this, 3, 20, "°", "The harvester is on target up to this angle");
-  distance_limit_ = limit_box(this, 3, 20, " mm", "... and up to this distance of its tip from the surface");
+  const Tolerance usual;
+  angle_limit_ = limit_box(this, usual.angle_deg, 20, "°", "The harvester is on target up to this angle");
+  distance_limit_ = limit_box(this, usual.distance_mm, 20, " mm",
+                              "... and up to this distance of its tip from the surface");
   sound_ = new QCheckBox("Sound", this);
   sound_->setToolTip("A quiet sound when the harvester was held within the tolerance for half a second");
   row->addWidget(label);

@@ -64,8 +64,9 @@ TEST(AngleReadout, AGoodChainShowsNumbers) {
 TEST(AngleReadout, ToleranceNeedsAngleAndDistance) {
   Good g;
   g.navigation.angle = radians_from_degrees(2.9);
+  g.navigation.distance = 0.9;
   EXPECT_TRUE(g.readout().in_tolerance);
-  g.navigation.distance = -3.1;
+  g.navigation.distance = -1.1;
   EXPECT_FALSE(g.readout().in_tolerance);
 }
 
