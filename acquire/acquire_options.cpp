@@ -136,6 +136,10 @@ void declare_liberty(ConfigSchema& schema, LibertyOptions& liberty, TrackerKeys&
   schema.integer("liberty.distortion_limit", liberty.distortion_limit, {.min = 1, .max = 2},
                  "Level of the distortion item from which a pose counts as taken in a distorted field.");
   declare_liberty_output(schema, liberty);
+  schema.number("liberty.answer_timeout_ms", keys.answer_timeout_ms, {.unit = "ms", .min = 10, .max = 60'000},
+                "Longest wait for one answer while the unit is started; each question is asked three times.");
+  schema.number("liberty.silence_limit_ms", keys.silence_limit_ms, {.unit = "ms", .min = 10, .max = 60'000},
+                "A stream in which nothing comes for this long is started again.");
 }
 
 void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
@@ -252,6 +256,8 @@ Result<void> apply_keys(const TrackerKeys& keys, TrackerChoice& tracker) {
   tracker.roles = {keys.endoscope_station - 1, keys.object_station - 1, keys.harvester_station - 1};
   tracker.history.mean_over = static_cast<Nanoseconds>(keys.pose_mean_ms * double{kMillisecond});
   LibertyOptions& liberty = tracker.liberty;
+  liberty.answer_timeout = static_cast<Nanoseconds>(keys.answer_timeout_ms * double{kMillisecond});
+  liberty.silence_limit = static_cast<Nanoseconds>(keys.silence_limit_ms * double{kMillisecond});
   liberty.stations = 0;
   for (const double station : keys.stations) {
     if (station != std::floor(station))

@@ -61,6 +61,8 @@ struct TrackerKeys {
   std::vector<double> hemisphere{1, 0, 0};
   std::vector<double> position_filter;  ///< F, FLow, FHigh, Factor; empty: off
   std::vector<double> attitude_filter;
+  double silence_limit_ms = 1000;
+  double answer_timeout_ms = 1000;
   double pose_mean_ms = 0;
 };
 

@@ -51,7 +51,7 @@ struct LibertyOptions {
   Nanoseconds device_latency =
       3'500 * kMicrosecond;              ///< middle of the measurement to result ready (user manual, E-1)
   Nanoseconds answer_timeout = kSecond;  ///< for one answer; asked three times
-  Nanoseconds silence_limit = kSecond;   ///< a stream silent for longer is started again
+  Nanoseconds silence_limit = kSecond;   ///< listened to in vain for longer, a stream is started again
   Nanoseconds retry_after = 500 * kMillisecond;  ///< between attempts to find and start the unit
   bool required_at_start = true;  ///< start() fails when there is no working unit; false: it goes on looking
 };

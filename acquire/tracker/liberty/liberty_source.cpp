@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "acquire/tracker/liberty/error_words.hpp"
@@ -113,7 +114,7 @@ Result<void> LibertySource::start_unit() {
   stream_.restart();
   streaming_ = true;
   first_bytes_pending_ = true;
-  last_bytes_ = monotonic_now();
+  silent_for_ = 0;
   std::string sentence = fmt::format("LIBERTY on {}: {} sensor(s), {} Hz", transport_->description(),
                                      std::popcount(identity_.detected), options_.rate_hz);
   for (const std::string& remark : identity_.remarks) sentence += "; " + remark;
@@ -122,10 +123,11 @@ Result<void> LibertySource::start_unit() {
 }
 
 void LibertySource::read_stream() {
+  const Nanoseconds begin = monotonic_now();
   const auto chunk = transport_->read(kReadSlice);
   if (!chunk) return lose_unit(chunk.error());
-  if (chunk->bytes.empty()) return handle_silence();
-  last_bytes_ = chunk->arrival;
+  if (chunk->bytes.empty()) return handle_silence(monotonic_now() - begin);
+  silent_for_ = 0;
   failed_restarts_ = 0;
   if (std::exchange(first_bytes_pending_, false)) ++starts_;
   stream_.feed(chunk->bytes, chunk->arrival, *this);
@@ -133,8 +135,10 @@ void LibertySource::read_stream() {
 }
 
 /// The button of a stylus, a reset, the last sensor unplugged: ask the unit again rather than wait for ever.
-void LibertySource::handle_silence() {
-  if (monotonic_now() - last_bytes_ < options_.silence_limit) return;
+/// A process that was stopped itself did not listen: a wait counts for no more than it was meant to take.
+void LibertySource::handle_silence(Nanoseconds listened) {
+  silent_for_ += std::min(listened, kReadSlice);
+  if (silent_for_ < options_.silence_limit) return;
   stream_.fall_silent(ToolState::missing, monotonic_now(), *this);
   hand_over();
   if (failed_restarts_ >= kMostRestarts)

@@ -51,7 +51,7 @@ class LibertySource : public TrackerSource, private SampleSink {
   void find_unit();
   Result<void> start_unit();
   void read_stream();
-  void handle_silence();
+  void handle_silence(Nanoseconds listened);
   void lose_unit(const Error& error);
   void say(bool delivering, std::string sentence);
   void hand_over();
@@ -74,7 +74,7 @@ class LibertySource : public TrackerSource, private SampleSink {
   int failed_restarts_ = 0;
   bool first_bytes_pending_ = false;  ///< started, but nothing came yet
   std::uint64_t starts_ = 0;          ///< that brought bytes
-  Nanoseconds last_bytes_ = 0;
+  Nanoseconds silent_for_ = 0;        ///< listened to in vain since the last bytes
   std::array<StationFigures, kMaxStations> published_;
 };
 

@@ -10,6 +10,15 @@
 
 namespace linescope::testing {
 
+/// The unit's clock is this process: while a busy machine holds it up the unit is silent, and that is no
+/// fault.
+inline LibertyOptions patient_options() {
+  LibertyOptions options;
+  options.answer_timeout = 10 * kSecond;
+  options.silence_limit = 60 * kSecond;
+  return options;
+}
+
 class DriverOnLine {
  public:
   DriverOnLine(FakeLiberty& unit, const LibertyOptions& options) : unit_(unit), source_(options) {}

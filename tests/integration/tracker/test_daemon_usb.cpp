@@ -196,7 +196,7 @@ TEST_F(DaemonOnUsb, UnpluggedReloadedRenumeratedAndBack) {
 
 TEST_F(DaemonOnUsb, AUnitThatFallsSilentIsStartedAgain) {
   usb.emplace(bus, unit);
-  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(start({"--set", "liberty.silence_limit_ms=1000"}));
   ASSERT_TRUE(cycles(4));
   unit.go_quiet();
   ASSERT_TRUE(daemon->measure_until([&] { return daemon->count(Counter::tracker_reconnects) == 1; }));

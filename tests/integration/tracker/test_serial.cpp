@@ -12,10 +12,11 @@ namespace {
 using testing::DriverOnLine;
 using testing::FakeLiberty;
 using ::testing::HasSubstr;
+using testing::patient_options;
 using testing::SerialCable;
 
 LibertyOptions serial_options(const std::string& device) {
-  LibertyOptions options;
+  LibertyOptions options = patient_options();
   options.port = LibertyPort::serial;
   options.serial_device = device;
   options.rate_hz = 120;

@@ -16,6 +16,7 @@ using testing::FakeBus;
 using testing::FakeLiberty;
 using testing::FakeUsb;
 using ::testing::HasSubstr;
+using testing::patient_options;
 
 class LibertyUsb : public ::testing::Test {
  protected:
@@ -129,7 +130,7 @@ TEST_F(LibertyUsb, UnpluggedInTheMiddleOfARead) {
 }
 
 TEST_F(LibertyUsb, RenumeratesFromLoaderToUnitAndThroughAReplug) {
-  LibertyOptions options;
+  LibertyOptions options = patient_options();
   options.required_at_start = false;
   options.retry_after = 20 * kMillisecond;
   DriverOnLine driver(unit, options);

@@ -14,6 +14,7 @@ using testing::DriverOnLine;
 using testing::FakeBus;
 using testing::FakeLiberty;
 using testing::FakeUsb;
+using testing::patient_options;
 
 class LibertyUsbStreaming : public ::testing::Test {
  protected:
@@ -33,7 +34,7 @@ class LibertyUsbStreaming : public ::testing::Test {
   FakeBus bus;
   FakeLiberty unit{8};
   FakeUsb usb{bus, unit};
-  DriverOnLine driver{unit, LibertyOptions{}};
+  DriverOnLine driver{unit, patient_options()};
 };
 
 TEST_F(LibertyUsbStreaming, EightSensorsForAMinuteOfCyclesWithoutALoss) {
@@ -62,7 +63,7 @@ TEST_F(LibertyUsbStreaming, HotFromEveryDirtyState) {
     SCOPED_TRACE(i);
     unit.power_cycle();
     dirty[i]();
-    DriverOnLine again(unit, LibertyOptions{});
+    DriverOnLine again(unit, patient_options());
     const auto started = again.source().start();
     ASSERT_TRUE(started) << started.error().message;
     unit.run_cycles(1);

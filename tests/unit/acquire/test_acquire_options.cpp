@@ -60,7 +60,8 @@ TEST(CommandLine, StationsCountFromOneAsOnTheUnit) {
 TEST(CommandLine, EverySettingOfTheUnitHasItsKey) {
   const auto line = parsed({"--set", "liberty.hemisphere=[0, 0, -1]", "--set",
                             "liberty.position_filter=[0.2, 0.2, 0.8, 0.95]", "--set", "liberty.format=ascii",
-                            "--set", "liberty.fifo=false", "--set", "liberty.ask_stylus=false"});
+                            "--set", "liberty.fifo=false", "--set", "liberty.ask_stylus=false", "--set",
+                            "liberty.silence_limit_ms=250", "--set", "liberty.answer_timeout_ms=125"});
   ASSERT_TRUE(line) << line.error().message;
   const LibertyOptions& liberty = line->options.tracker.liberty;
   EXPECT_EQ(liberty.hemisphere, Eigen::Vector3d(0, 0, -1));
@@ -70,6 +71,8 @@ TEST(CommandLine, EverySettingOfTheUnitHasItsKey) {
   EXPECT_EQ(liberty.format, LibertyFormat::ascii);
   EXPECT_FALSE(liberty.fifo);
   EXPECT_FALSE(liberty.ask_stylus);
+  EXPECT_EQ(liberty.silence_limit, 250 * kMillisecond);
+  EXPECT_EQ(liberty.answer_timeout, 125 * kMillisecond);
   EXPECT_EQ(parsed({"--set", "liberty.attitude_filter=[0.2]"}).error().exit, ExitCode::configuration);
 }
 

@@ -130,6 +130,20 @@ TEST_F(LibertySourceTest, AUnitThatFallsSilentIsStartedAgain) {
   EXPECT_EQ(line->opened, 1) << "the line itself was never given up";
 }
 
+TEST_F(LibertySourceTest, AProcessThatWasStoppedItselfDoesNotTakeTheUnitForSilent) {
+  options.silence_limit = 300 * kMillisecond;
+  start();
+  line->unit.run_cycles(2);
+  ASSERT_TRUE(take(6));
+  const auto commands = line->unit.commands().size();
+  line->stopped_for = kSecond;
+  ASSERT_TRUE(until([&] { return line->stopped_for == 0; }, [] {}));
+  line->unit.run_cycles(2);
+  ASSERT_TRUE(take(6));
+  EXPECT_EQ(source->counters().lost, 0u);
+  EXPECT_EQ(line->unit.commands().size(), commands) << "the unit was asked nothing";
+}
+
 TEST_F(LibertySourceTest, AUnitSwitchedOffAndOnIsConfiguredAgain) {
   options.silence_limit = 300 * kMillisecond;
   start();

@@ -16,6 +16,8 @@ struct DirectLine {
   FakeLiberty unit;
   std::atomic<bool> plugged{true};
   std::atomic<int> opened{0};
+  /// The next read finds nothing and ends only after this: the reading process itself was stopped.
+  std::atomic<Nanoseconds> stopped_for{0};
 };
 
 class DirectTransport : public ByteTransport {
@@ -35,6 +37,10 @@ class DirectTransport : public ByteTransport {
   }
   Result<Chunk> read(Nanoseconds) override {
     if (!line_->plugged) return gone();
+    if (const Nanoseconds stopped = line_->stopped_for.exchange(0); stopped > 0) {
+      std::this_thread::sleep_for(std::chrono::nanoseconds(stopped));
+      return Chunk{};
+    }
     const auto packet = line_->unit.next_packet();
     if (!packet) {
       std::this_thread::sleep_for(std::chrono::microseconds(200));
