@@ -64,7 +64,9 @@ PoseAnswer missed(PoseMiss miss, ToolState state) {
   return answer;
 }
 
-PoseAnswer between(const PoseSample& a, const PoseSample& b, Nanoseconds time, Nanoseconds longest_gap) {
+}  // namespace
+
+PoseAnswer pose_between(const PoseSample& a, const PoseSample& b, Nanoseconds time, Nanoseconds longest_gap) {
   PoseAnswer answer = missed(PoseMiss::none, worst(a.state, b.state));
   answer.gap = b.time - a.time;
   if (!usable(answer.state)) {
@@ -79,8 +81,6 @@ PoseAnswer between(const PoseSample& a, const PoseSample& b, Nanoseconds time, N
   }
   return answer;
 }
-
-}  // namespace
 
 Result<void> validate(const PoseHistoryOptions& options) {
   if (options.capacity < 2)
@@ -134,7 +134,7 @@ PoseAnswer PoseHistory::pose_at(int station, Nanoseconds time) const {
   const Neighbours found = find(*rings_[static_cast<std::size_t>(station)], time);
   switch (found.miss) {
     case PoseMiss::none:
-      return between(found.before, found.after, time, options_.longest_gap);
+      return pose_between(found.before, found.after, time, options_.longest_gap);
     case PoseMiss::never_seen:
       return missed(found.miss, ToolState::never_seen);
     default:

@@ -44,6 +44,10 @@ struct PoseAnswer {
   bool ok() const { return miss == PoseMiss::none; }
 };
 
+/// The pose at `time`, not before `a` and not after `b`, two neighbouring samples of one station: slerp of
+/// the rotation, straight line of the position. `a` and `b` may be the same sample.
+PoseAnswer pose_between(const PoseSample& a, const PoseSample& b, Nanoseconds time, Nanoseconds longest_gap);
+
 class PoseHistory {
  public:
   /// Precondition: validate(options) holds.

@@ -7,8 +7,8 @@
 
 namespace linescope {
 
-/// Quaternions are summed in one hemisphere, which for the fraction of a degree a hand turns within one exposure
-/// is the mean rotation to second order.
+/// Quaternions are summed in one hemisphere, which for the fraction of a degree a hand turns within one
+/// exposure is the mean rotation to second order.
 class PoseMean {
  public:
   void add(const Rigid<World, Sensor>& pose) {

@@ -35,12 +35,11 @@ Result<void> validate(const BlockOptions& o) {
 }
 
 Result<BlockFit> fit_block(const ToolPoses& poses, const BlockOptions& options) {
-  if (poses.size() < static_cast<std::size_t>(options.least_poses)) {
-    return tl::unexpected(refusal(
-        Refusal::too_few,
-        fmt::format("{} good poses of the tool, at least {} are needed", poses.size(), options.least_poses),
-        "Keep its sensor and the block's within the tracker's range, and let it stand for some seconds"));
-  }
+  if (auto ok = enough_poses(
+          poses, options.least_poses,
+          "Keep its sensor and the block's within the tracker's range, and let it stand for some seconds");
+      !ok)
+    return tl::unexpected(ok.error());
   std::vector<Vector3d> tips, axes;
   for (const TimedToolPose& pose : poses) {
     const auto tool_from_fixture = pose.fixture_from_tool.inverse();

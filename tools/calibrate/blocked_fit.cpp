@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tools/calibrate/sample_statistics.hpp"
+
 namespace linescope::calibrate {
 namespace {
 
@@ -44,9 +46,8 @@ double robust_deviation(const std::vector<Eigen::Vector3d>& residuals, const std
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (use[i]) lengths.push_back(residuals[i].norm());
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle / 1.538;  // the median length of a three-dimensional standard normal vector
+  return median_of(std::move(lengths)) /
+         1.538;  // the median length of a three-dimensional standard normal vector
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "common/units.hpp"
 #include "tools/calibrate/board_pose.hpp"
+#include "tools/calibrate/sample_statistics.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -70,16 +71,12 @@ Values values_of(const CameraModel& c) {
       c.distortion[4]};
 }
 
-/// Of an estimate, from the estimates that each lack one group of the data.
+/// Of an estimate, from the estimates that each lack one group of the data; 0 where there is only one.
 Values jackknife_deviations(const std::vector<Values>& without_one) {
-  const auto count = static_cast<double>(without_one.size());
   Values deviations{};
-  for (std::size_t k = 0; k < deviations.size(); ++k) {
-    double mean = 0, squares = 0;
-    for (const Values& v : without_one) mean += v[k] / count;
-    for (const Values& v : without_one) squares += (v[k] - mean) * (v[k] - mean);
-    deviations[k] = count > 1 ? std::sqrt((count - 1) / count * squares) : 0;
-  }
+  if (without_one.size() < 2) return deviations;
+  for (std::size_t k = 0; k < deviations.size(); ++k)
+    deviations[k] = jackknife_deviation(without_one.size(), [&](std::size_t i) { return without_one[i][k]; });
   return deviations;
 }
 
@@ -91,12 +88,6 @@ double share_of_deviation(const std::vector<std::vector<cv::Point2f>>& images, i
   for (const auto& image : images) corners += static_cast<double>(image.size());
   const double unknowns = intrinsics + 6.0 * static_cast<double>(images.size());
   return std::sqrt(std::max(0.0, corners - unknowns) / (2 * corners - unknowns));
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double largest_angle_between(const std::vector<Rigid<CameraCv, Board>>& poses) {
@@ -173,17 +164,14 @@ Result<void> CameraFitter::choose_pictures() {
 Result<Solved> CameraFitter::solve_without_outliers() {
   auto solved = solve(fit_.used);
   while (solved && static_cast<int>(fit_.used.size()) > options_.min_pictures) {
-    const auto worst = std::max_element(solved->per_view.begin(), solved->per_view.end());
-    const double usual = median(solved->per_view);
-    if (*worst <= std::max(kAlwaysGood, options_.outlier_factor * usual)) break;
-    const auto at = worst - solved->per_view.begin();
-    const std::string& name = session_.observations[fit_.used[static_cast<std::size_t>(at)]].name;
+    const auto worst = outlier_among(solved->per_view, options_.outlier_factor, kAlwaysGood);
+    if (!worst) break;
+    const Observation& seen = session_.observations[fit_.used[worst->at]];
     fit_.quality.left_out.push_back(
-        {name, fmt::format("outlier: {:.2f} px, the others' median is {:.2f} px", *worst, usual)});
-    fit_.quality.items.push_back(
-        {name, *worst, false,
-         session_.observations[fit_.used[static_cast<std::size_t>(at)]].board.ids.size()});
-    fit_.used.erase(fit_.used.begin() + at);
+        {seen.name,
+         fmt::format("outlier: {:.2f} px, the others' median is {:.2f} px", worst->error, worst->usual)});
+    fit_.quality.items.push_back({seen.name, worst->error, false, seen.board.ids.size()});
+    fit_.used.erase(fit_.used.begin() + static_cast<std::ptrdiff_t>(worst->at));
     solved = solve(fit_.used);
   }
   return solved;

@@ -3,6 +3,7 @@
 #include "common/units.hpp"
 #include "tools/calibrate/camera_fit.hpp"
 #include "tools/calibrate/optical_steps.hpp"
+#include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
 
 namespace linescope::calibrate {
@@ -40,19 +41,11 @@ class CameraStep final : public Step {
                    "Groups of pictures left out in turn for the held-out error.");
     schema.number("camera.outlier_factor", o_.outlier_factor, {.min = 1.5, .max = 100},
                   "A picture this many times worse than the median is left out.");
-    schema.number("camera.every_ms", every_ms_, {.unit = "ms", .min = 0, .max = 60000},
-                  "Of a recording or a living camera one picture in this time is looked at; 0: all.");
-    schema.integer("camera.most_pictures", most_, {.min = 4, .max = 1000}, "Enough pictures with a board.");
+    pictures_.declare(schema, "camera", 4, "Enough pictures with a board.");
   }
   Result<void> validate() const override { return calibrate::validate(o_); }
 
-  CollectOptions wants(const BoardOptions& board) const override {
-    CollectOptions wanted;
-    wanted.board = board;
-    wanted.every = static_cast<Nanoseconds>(every_ms_ * 1e6);
-    wanted.most_pictures = static_cast<std::size_t>(most_);
-    return wanted;
-  }
+  CollectOptions wants(const BoardOptions& board) const override { return pictures_.wants(board); }
 
   std::string coverage(const Session& so_far, const BoardOptions&) const override {
     const Coverage c = coverage_of(so_far);
@@ -83,8 +76,7 @@ class CameraStep final : public Step {
 
  private:
   CameraFitOptions o_;
-  double every_ms_ = 300;
-  int most_ = 60;
+  PictureKeys pictures_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "tools/calibrate/board_pose.hpp"
 #include "tools/calibrate/hand_eye_solve.hpp"
 #include "tools/calibrate/rotation_vector.hpp"
+#include "tools/calibrate/sample_statistics.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -164,17 +165,13 @@ void HandEyeFitter::drop_outliers() {
     if (!solution) return;
     std::vector<double> errors;
     for (const HandEyePicture& p : pictures_) errors.push_back(chain_error(p, *solution, board_));
-    auto sorted = errors;
-    std::sort(sorted.begin(), sorted.end());
-    const double usual = sorted[sorted.size() / 2];
-    const auto worst = std::max_element(errors.begin(), errors.end());
-    if (*worst <= options_.outlier_factor * usual) return;
-    const auto at = worst - errors.begin();
-    const std::string& name = pictures_[static_cast<std::size_t>(at)].name;
-    fit_.quality.left_out.push_back(
-        {name, fmt::format("outlier: {:.2f} mm, the others' median is {:.2f} mm", *worst, usual)});
-    fit_.quality.items.push_back({name, *worst, false, 4});
-    pictures_.erase(pictures_.begin() + at);
+    const auto worst = outlier_among(errors, options_.outlier_factor);
+    if (!worst) return;
+    const std::string& name = pictures_[worst->at].name;
+    fit_.quality.left_out.push_back({name, fmt::format("outlier: {:.2f} mm, the others' median is {:.2f} mm",
+                                                       worst->error, worst->usual)});
+    fit_.quality.items.push_back({name, worst->error, false, 4});
+    pictures_.erase(pictures_.begin() + static_cast<std::ptrdiff_t>(worst->at));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "tools/calibrate/hand_eye_fit.hpp"
 #include "tools/calibrate/optical_steps.hpp"
+#include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
 
 namespace linescope::calibrate {
@@ -44,19 +45,11 @@ class HandEyeStep final : public Step {
                   "Size of the board's squares against the tracker's millimetres.");
     schema.number("hand-eye.longest_gap_ms", o_.longest_gap_ms, {.unit = "ms", .min = 1, .max = 10000},
                   "Between the two tracker samples around a picture.");
-    schema.number("hand-eye.every_ms", every_ms_, {.unit = "ms", .min = 0, .max = 60000},
-                  "Of a recording or a living camera one picture in this time is looked at; 0: all.");
-    schema.integer("hand-eye.most_pictures", most_, {.min = 3, .max = 1000}, "Enough pictures.");
+    pictures_.declare(schema, "hand-eye", 3, "Enough pictures.");
   }
   Result<void> validate() const override { return calibrate::validate(o_); }
 
-  CollectOptions wants(const BoardOptions& board) const override {
-    CollectOptions wanted;
-    wanted.board = board;
-    wanted.every = static_cast<Nanoseconds>(every_ms_ * 1e6);
-    wanted.most_pictures = static_cast<std::size_t>(most_);
-    return wanted;
-  }
+  CollectOptions wants(const BoardOptions& board) const override { return pictures_.wants(board); }
 
   std::string coverage(const Session& so_far, const BoardOptions&) const override {
     std::size_t both = 0;
@@ -91,8 +84,7 @@ class HandEyeStep final : public Step {
 
  private:
   HandEyeOptions o_;
-  double every_ms_ = 300;
-  int most_ = 60;
+  PictureKeys pictures_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/units.hpp"
+#include "tools/calibrate/sample_statistics.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -64,21 +65,18 @@ double mean_square(const Sheet& sheet, const LaserPicture& picture, const std::v
 double robust_mean_square(const Sheet& sheet, const LaserPicture& picture) {
   std::vector<double> squares;
   for (const LaserPoint& p : picture.points) squares.push_back(std::pow(sheet.distance(p), 2));
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  const double limit = *middle / 0.4549 * 16;
+  const double middle = median_of(squares);
+  const double limit = middle / 0.4549 * 16;
   double sum = 0, count = 0;
   for (const double s : squares)
     if (s <= limit) sum += s, ++count;
-  return count == 0 ? *middle : sum / count;
+  return count == 0 ? middle : sum / count;
 }
 
 double middle_depth(const LaserPicture& picture) {
   std::vector<double> depths;
   for (const LaserPoint& p : picture.points) depths.push_back(1 / p.inverse_depth);
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return median_of(std::move(depths));
 }
 
 std::pair<double, double> depth_range(const std::vector<LaserPicture>& pictures) {
@@ -93,11 +91,7 @@ std::pair<double, double> depth_range(const std::vector<LaserPicture>& pictures)
 /// Jackknife: the pictures, not the points, are what is independent of each other.
 template <class Function>
 double deviation_of(const std::vector<Sheet>& without, Function value) {
-  const auto n = static_cast<double>(without.size());
-  double mean = 0, squares = 0;
-  for (const Sheet& s : without) mean += value(s) / n;
-  for (const Sheet& s : without) squares += std::pow(value(s) - mean, 2);
-  return n > 1 ? std::sqrt((n - 1) / n * squares) : kUnknown;
+  return jackknife_deviation(without.size(), [&](std::size_t i) { return value(without[i]); });
 }
 
 Result<void> LaserFitter::choose_pictures() {
@@ -145,19 +139,14 @@ void LaserFitter::drop_outlying_pictures() {
     if (!sheet) return;
     std::vector<double> errors;
     for (const LaserPicture& p : fit_.pictures) errors.push_back(std::sqrt(robust_mean_square(*sheet, p)));
-    const auto worst = std::max_element(errors.begin(), errors.end());
-    auto sorted = errors;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
-    const double usual = sorted[sorted.size() / 2];
-    if (*worst <= kPictureOutlier * usual) return;
-    const auto at = worst - errors.begin();
-    const LaserPicture& out = fit_.pictures[static_cast<std::size_t>(at)];
+    const auto worst = outlier_among(errors, kPictureOutlier);
+    if (!worst) return;
+    const LaserPicture& out = fit_.pictures[worst->at];
     fit_.quality.left_out.push_back(
-        {out.name,
-         fmt::format("outlier: {:.2f} mm from the surface, the others' median is {:.2f} mm", *worst, usual)});
-    fit_.quality.items.push_back({out.name, *worst, false, out.points.size()});
-    fit_.pictures.erase(fit_.pictures.begin() + at);
+        {out.name, fmt::format("outlier: {:.2f} mm from the surface, the others' median is {:.2f} mm",
+                               worst->error, worst->usual)});
+    fit_.quality.items.push_back({out.name, worst->error, false, out.points.size()});
+    fit_.pictures.erase(fit_.pictures.begin() + static_cast<std::ptrdiff_t>(worst->at));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "common/units.hpp"
 #include "tools/calibrate/laser_fit.hpp"
 #include "tools/calibrate/optical_steps.hpp"
+#include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
 
 namespace linescope::calibrate {
@@ -50,18 +51,13 @@ class LaserStep final : public Step {
                   "b as the instrument was built, to find a wrong square size; 0: not known.");
     schema.number("laser.max_scale_error", o_.max_scale_error, {.min = 0, .max = 1},
                   "Of b against the design.");
-    schema.number("laser.every_ms", every_ms_, {.unit = "ms", .min = 0, .max = 60000},
-                  "Of a recording or a living camera one picture in this time is looked at; 0: all.");
-    schema.integer("laser.most_pictures", most_, {.min = 3, .max = 1000}, "Enough pictures.");
+    pictures_.declare(schema, "laser", 3, "Enough pictures.");
   }
   Result<void> validate() const override { return calibrate::validate(o_); }
 
   CollectOptions wants(const BoardOptions& board) const override {
-    CollectOptions wanted;
-    wanted.board = board;
+    CollectOptions wanted = pictures_.wants(board);
     wanted.line = line_;
-    wanted.every = static_cast<Nanoseconds>(every_ms_ * 1e6);
-    wanted.most_pictures = static_cast<std::size_t>(most_);
     return wanted;
   }
 
@@ -112,8 +108,7 @@ class LaserStep final : public Step {
 
   LineExtractorOptions line_;
   LaserFitOptions o_;
-  double every_ms_ = 300;
-  int most_ = 60;
+  PictureKeys pictures_;
 };
 
 }  // namespace

@@ -76,12 +76,11 @@ Result<void> validate(const PivotOptions& o) {
 }
 
 Result<PivotFit> fit_pivot(const ToolPoses& poses, const PivotOptions& options) {
-  if (poses.size() < static_cast<std::size_t>(options.least_poses)) {
-    return tl::unexpected(refusal(
-        Refusal::too_few,
-        fmt::format("{} good poses of the tool, at least {} are needed", poses.size(), options.least_poses),
-        "Keep its sensor connected and within the tracker's range, and swing it for some seconds"));
-  }
+  if (auto ok = enough_poses(
+          poses, options.least_poses,
+          "Keep its sensor connected and within the tracker's range, and swing it for some seconds");
+      !ok)
+    return tl::unexpected(ok.error());
   PivotFit result;
   result.turned_deg = turned_deg_of(poses);
   result.swing_deg = swing_deg_of(mean_rotation(poses));

@@ -91,7 +91,7 @@ class Runner {
 
   Result<Calibration> before() const {
     return there(command_.calibration) ? load_calibration(command_.calibration)
-                                        : Result<Calibration>(fresh());
+                                       : Result<Calibration>(fresh());
   }
 
   Result<Session> collected(const Step& step) const {

@@ -185,16 +185,7 @@ PoseAnswer Session::pose_at(int station, Nanoseconds time, Nanoseconds latency,
   if (after == samples.end()) return answer.miss = PoseMiss::too_late, answer;
   const bool exact = after->time == at;
   if (!exact && after == samples.begin()) return answer.miss = PoseMiss::too_early, answer;
-  const PoseSample& a = exact ? *after : *(after - 1);
-  const PoseSample& b = *after;
-  answer.gap = b.time - a.time;
-  answer.state = worst(a.state, b.state);
-  answer.miss = !usable(answer.state)      ? PoseMiss::state_bad
-                : answer.gap > longest_gap ? PoseMiss::gap_too_long
-                                           : PoseMiss::none;
-  const double fraction = exact ? 0 : static_cast<double>(at - a.time) / static_cast<double>(b.time - a.time);
-  if (answer.ok()) answer.world_from_sensor = interpolate(a.world_from_sensor, b.world_from_sensor, fraction);
-  return answer;
+  return pose_between(exact ? *after : *(after - 1), *after, at, longest_gap);
 }
 
 Result<Session> collect(Input& input, const CollectOptions& options, const Progress& progress) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "tools/calibrate/sample_statistics.hpp"
+
 namespace linescope::calibrate {
 namespace {
 
@@ -68,12 +70,6 @@ std::optional<Sheet> start_plane(const std::vector<const LaserPicture*>& picture
     if (score > best_score) best_score = score, best = sheet;
   }
   return best;
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Tukey's weights: nothing beyond the limit.

@@ -89,12 +89,11 @@ Result<void> validate(const SpinOptions& o) {
 }
 
 Result<SpinFit> fit_spin(const ToolPoses& poses, const SpinOptions& options) {
-  if (poses.size() < static_cast<std::size_t>(options.least_poses)) {
-    return tl::unexpected(refusal(
-        Refusal::too_few,
-        fmt::format("{} good poses of the tool, at least {} are needed", poses.size(), options.least_poses),
-        "Keep its sensor connected and within the tracker's range, and turn it for some seconds"));
-  }
+  if (auto ok = enough_poses(
+          poses, options.least_poses,
+          "Keep its sensor connected and within the tracker's range, and turn it for some seconds");
+      !ok)
+    return tl::unexpected(ok.error());
   SpinFit result;
   const Still still = still_direction(poses);
   result.spin_deg = rms_turn_deg(still);

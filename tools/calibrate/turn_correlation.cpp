@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquire/tracker/pose_history.hpp"
 #include "tools/calibrate/rotation_vector.hpp"
 
 namespace linescope::calibrate {
@@ -49,11 +50,9 @@ std::optional<Rigid<World, Sensor>> PoseTrack::at(Nanoseconds time) const {
   if (after == good_.end()) return std::nullopt;
   if (after->time == time) return after->world_from_sensor;
   if (after == good_.begin()) return std::nullopt;
-  const auto before = after - 1;
-  const Nanoseconds gap = after->time - before->time;
-  if (gap > kLongestGap) return std::nullopt;
-  return interpolate(before->world_from_sensor, after->world_from_sensor,
-                     static_cast<double>(time - before->time) / static_cast<double>(gap));
+  const PoseAnswer answer = pose_between(*(after - 1), *after, time, kLongestGap);
+  if (!answer.ok()) return std::nullopt;
+  return answer.world_from_sensor;
 }
 
 std::optional<Rigid<World, Sensor>> PoseTrack::smooth_at(Nanoseconds time) const {
