@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "viewer/held_line.hpp"
 #include "viewer/navigate/normal_estimator.hpp"
 #include "viewer/navigate/steady_harvester.hpp"
-#include "viewer/navigation_line.hpp"
 
 namespace linescope {
 namespace {

@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "viewer/held_line.hpp"
+
 namespace linescope {
 namespace {
 
 // What is over sooner needs no progress bar: it would only flicker.
 constexpr Nanoseconds kShowAfter = 300 * kMillisecond;
 
-std::vector<Eigen::Vector3f> positions(const HeldLines& lines, const TriangleMesh* mesh) {
-  std::vector<Eigen::Vector3f> all;
-  for (const auto& line : lines)
-    for (const SurfacePoint& p : line->points) all.push_back(p.position);
+/// Of a mesh file its vertices: it has no points.
+std::vector<Eigen::Vector3f> evaluated_positions(const HeldLines& lines, const TriangleMesh* mesh) {
+  std::vector<Eigen::Vector3f> all = positions_of(lines);
   if (all.empty() && mesh != nullptr) all = mesh->positions;
   return all;
 }
@@ -73,7 +74,7 @@ void SessionDesk::load(const std::filesystem::path& path) {
 
 void SessionDesk::evaluate(const EvaluationRequest& request, std::shared_ptr<const TriangleMesh> mesh) {
   begin("Evaluating", [this, request, lines = lines_, mesh = std::move(mesh)](JobControl& control) {
-    const auto points = positions(lines, mesh.get());
+    const auto points = evaluated_positions(lines, mesh.get());
     control.go_on(0.2);
     const auto result = evaluate_shape(points, request.shape, request.region, request.nominal);
     return [this, result] {

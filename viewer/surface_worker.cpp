@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "viewer/held_line.hpp"
 #include "viewer/surface/mesher.hpp"
 
 namespace linescope {
@@ -52,17 +53,13 @@ struct SurfaceWorker::Work {
   Nanoseconds made_at = 0;
   bool changed = false;
 
-  static void add_line(Mesher& to, const HeldLine& line) {
-    to.add_line({.points = line.points, .seen_from = line.seen_from, .time = line.time, .id = line.serial});
-  }
-
   void take(const LineNews& news) {
     changed = true;
     if (news.forget) {
       mesher->clear();
       lines.clear();
     }
-    for (const auto& line : news.lines) add_line(*mesher, *line);
+    for (const auto& line : news.lines) mesher->add_line(surface_line(*line));
     lines.insert(lines.end(), news.lines.begin(), news.lines.end());
   }
 
@@ -71,6 +68,7 @@ struct SurfaceWorker::Work {
     auto mesh = std::make_shared<TriangleMesh>();
     mesher->write_mesh(*mesh);
     auto view = std::make_shared<SurfaceView>();
+    view->filled = mesh->filled_count();
     view->area = mesh->area();
     view->seen_area = seen_area(*mesh, lines);
     view->grid = std::make_shared<const std::vector<Eigen::Vector3f>>(mesher->grid_vertices());
@@ -131,7 +129,7 @@ void SurfaceWorker::change(const MesherOptions& wanted) {
     return;
   }
   for (std::size_t i = 0; i < work.lines.size() && !give_up_; ++i) {
-    Work::add_line(**made, *work.lines[i]);
+    (*made)->add_line(surface_line(*work.lines[i]));
     change_share_ = static_cast<double>(i + 1) / static_cast<double>(work.lines.size());
   }
   work.former_options = std::exchange(work.options, wanted);

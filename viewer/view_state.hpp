@@ -22,6 +22,10 @@ namespace linescope {
 /// there is no object sensor.
 enum class HeldIn : std::uint8_t { object, world };
 struct Held {};  ///< frame tag for whichever of the two was chosen
+/// As mesh files and sessions name it.
+inline const char* frame_name(HeldIn held_in) {
+  return held_in == HeldIn::object ? "Object" : "World";
+}
 
 /// The line to the daemon.
 enum class LinkState : std::uint8_t {
@@ -166,11 +170,12 @@ struct SurfaceView {
   std::uint64_t lines = 0;    ///< in it
   std::uint64_t points = 0;
   std::uint64_t points_refused = 0;
-  double area = 0;       ///< of all triangles, mm^2
-  double seen_area = 0;  ///< of those that face the camera: a closed skin has a back nobody scanned
-  Nanoseconds took = 0;  ///< to bring it up to date
-  bool busy = false;     ///< lines are waiting or a mesh is being made
-  std::string fault;     ///< options that cannot be
+  std::size_t filled = 0;  ///< triangles that close holes
+  double area = 0;         ///< of all triangles, mm^2
+  double seen_area = 0;    ///< of those that face the camera: a closed skin has a back nobody scanned
+  Nanoseconds took = 0;    ///< to bring it up to date
+  bool busy = false;       ///< lines are waiting or a mesh is being made
+  std::string fault;       ///< options that cannot be
 };
 
 /// The newest answer to "by how much is the harvester off the normal".

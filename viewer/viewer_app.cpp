@@ -32,6 +32,7 @@ std::shared_ptr<const SurfaceView> surface_of(const Session& session) {
   view->interval = session.mesher.interval;
   view->lines = session.lines.size();
   view->points = session.point_count();
+  view->filled = view->mesh->filled_count();
   view->area = view->seen_area = view->mesh->area();
   return view;
 }

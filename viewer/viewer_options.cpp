@@ -10,9 +10,7 @@
 namespace linescope {
 namespace {
 
-const std::map<std::string, MeshMethod> kMethods = {{"pmc", MeshMethod::proposed_cubes},
-                                                    {"cmc", MeshMethod::classical_cubes},
-                                                    {"implicit", MeshMethod::implicit}};
+const std::map<std::string, MeshMethod> kMethods(kMeshMethodWords.begin(), kMeshMethodWords.end());
 const std::map<std::string, NormalChoice> kNormals = {{"robust", NormalChoice::robust},
                                                       {"algorithm-1", NormalChoice::algorithm_1}};
 const std::map<std::string, HeldIn> kHeld = {{"object", HeldIn::object}, {"world", HeldIn::world}};

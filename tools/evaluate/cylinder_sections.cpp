@@ -8,6 +8,7 @@
 #include "tools/evaluate/seed_values.hpp"
 #include "tools/evaluate/setups.hpp"
 #include "tools/evaluate/virtual_session.hpp"
+#include "viewer/held_line.hpp"
 #include "viewer/measure/shape_fits.hpp"
 
 namespace linescope::evaluate {
@@ -47,13 +48,6 @@ Points2 across(const Rigid<twin::PhantomFrame, Object>& phantom_from_object,
   return section;
 }
 
-std::vector<Eigen::Vector3f> positions(const HeldLines& lines) {
-  std::vector<Eigen::Vector3f> all;
-  for (const auto& line : lines)
-    for (const SurfacePoint& p : line->points) all.push_back(p.position);
-  return all;
-}
-
 Result<Section2> measured(const VirtualSession& session, const SessionOptions& algorithms,
                           MeshMethod method) {
   auto scan = session.acquire(algorithms);
@@ -62,7 +56,7 @@ Result<Section2> measured(const VirtualSession& session, const SessionOptions& a
   const Surface surface = surface_of(scan->lines, method);
   // "MC data" of the thesis are the marked vertices; the better mesh has none, its own vertices count.
   const auto& mesh_data = method == kThesisMesh ? surface.grid : surface.mesh.positions;
-  return Section2{across(phantom_from_object, positions(scan->lines)),
+  return Section2{across(phantom_from_object, positions_of(scan->lines)),
                   across(phantom_from_object, mesh_data)};
 }
 

@@ -7,9 +7,10 @@
 
 #include "acquire/record/recording.hpp"
 #include "tools/evaluate/session_run.hpp"
-#include "viewer/measure/shape_fits.hpp"
 #include "tools/evaluate/surfaces.hpp"
 #include "tools/evaluate/virtual_session.hpp"
+#include "viewer/held_line.hpp"
+#include "viewer/measure/shape_fits.hpp"
 
 namespace linescope::evaluate {
 namespace {
@@ -21,28 +22,13 @@ struct Judged {
   Points3 points, mesh;
 };
 
-tl::expected<Sources, Error> replayed(const std::filesystem::path& folder) {
-  AcquireOptions options;
-  options.run.replay = folder;
-  options.run.pace = Pace::fast;
-  auto sources = make_sources(options, 0);
-  if (!sources) return fail(ErrorCode::unreadable, sources.error().message);
-  return std::move(*sources);
-}
-
 Result<Judged> judged(const std::filesystem::path& folder, const StationRoles& roles,
                       const SessionOptions& algorithms, MeshMethod method) {
-  auto sources = replayed(folder);
-  if (!sources) return tl::unexpected(sources.error());
-  SessionOptions options = algorithms;
-  options.roles = roles;
-  options.lines = 20'000;
-  auto session = run_session(std::move(*sources), options);
+  auto session = run_recording(folder, roles, algorithms);
   if (!session) return tl::unexpected(session.error());
   Judged j;
   j.session = std::move(*session);
-  for (const auto& line : j.session.lines)
-    for (const SurfacePoint& p : line->points) j.points.push_back(p.position.cast<double>());
+  for (const Eigen::Vector3f& p : positions_of(j.session.lines)) j.points.push_back(p.cast<double>());
   const Surface surface = surface_of(j.session.lines, method);
   for (const Eigen::Vector3f& p : method == kThesisMesh ? surface.grid : surface.mesh.positions)
     j.mesh.push_back(p.cast<double>());
@@ -131,8 +117,7 @@ Result<KnownShape> known_shape(const std::string& name) {
 Result<Report> evaluate_recording(const std::filesystem::path& folder, const KnownShape& shape) {
   auto recording = open_recording(folder);
   if (!recording) return tl::unexpected(recording.error());
-  const StationRoles roles{recording->info.endoscope_station, recording->info.object_station,
-                           recording->info.harvester_station};
+  const StationRoles roles = roles_of(recording->info);
   auto plain = judged(folder, roles, thesis_session(), kThesisMesh);
   if (!plain) return tl::unexpected(plain.error());
   auto better = judged(folder, roles, better_session(), kBetterMesh);

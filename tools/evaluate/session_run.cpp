@@ -90,6 +90,23 @@ std::uint64_t Session::count(Counter counter) const {
   return 0;
 }
 
+StationRoles roles_of(const RecordingInfo& info) {
+  return {info.endoscope_station, info.object_station, info.harvester_station};
+}
+
+Result<Session> run_recording(const std::filesystem::path& folder, const StationRoles& roles,
+                              const SessionOptions& algorithms) {
+  AcquireOptions replay;
+  replay.run.replay = folder;
+  replay.run.pace = Pace::fast;
+  auto sources = make_sources(replay, 0);
+  if (!sources) return fail(ErrorCode::unreadable, sources.error().message);
+  SessionOptions options = algorithms;
+  options.roles = roles;
+  options.lines = 20'000;
+  return run_session(std::move(*sources), options);
+}
+
 Result<Session> run_session(Sources sources, const SessionOptions& options) {
   const Calibration calibration = sources.calibration;
   const SegmentOptions segment = segment_options(options, calibration.camera);

@@ -6,11 +6,13 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "acquire/acquire_options.hpp"
+#include "acquire/record/recording_info.hpp"
 #include "acquire/sources.hpp"
 #include "ipc/segment_statistics.hpp"
 #include "ipc/segment_types.hpp"
@@ -36,6 +38,13 @@ struct Session {
   std::size_t points() const;
   std::uint64_t count(Counter counter) const;
 };
+
+/// The roles a recording was made with.
+StationRoles roles_of(const RecordingInfo& info);
+
+/// A recorded session's pictures and poses through the same run.
+Result<Session> run_recording(const std::filesystem::path& folder, const StationRoles& roles,
+                              const SessionOptions& algorithms);
 
 /// `sources` are started and stepped. The segment it uses is gone afterwards. Any number of threads may run
 /// sessions at the same time.

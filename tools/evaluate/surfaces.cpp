@@ -1,6 +1,6 @@
 #include "tools/evaluate/surfaces.hpp"
 
-#include "viewer/navigation_line.hpp"
+#include "viewer/held_line.hpp"
 
 namespace linescope::evaluate {
 
@@ -8,10 +8,7 @@ Surface surface_of(const HeldLines& lines, MeshMethod method) {
   MesherOptions options;
   options.method = method;
   const auto mesher = *make_mesher(options);
-  for (const auto& line : lines) {
-    mesher->add_line(
-        {.points = line->points, .seen_from = line->seen_from, .time = line->time, .id = line->serial});
-  }
+  for (const auto& line : lines) mesher->add_line(surface_line(*line));
   Surface surface;
   mesher->write_mesh(surface.mesh);
   surface.grid = mesher->grid_vertices();

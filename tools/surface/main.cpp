@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -13,6 +12,7 @@
 #include "common/version.hpp"
 #include "tools/evaluate/session_run.hpp"
 #include "tools/evaluate/virtual_session.hpp"
+#include "viewer/held_line.hpp"
 #include "viewer/scene/mesh_file.hpp"
 
 namespace linescope {
@@ -23,29 +23,14 @@ struct SurfaceCommand {
   MesherOptions options;
 };
 
-/// The recorded pictures and poses through the daemon's own run.
-Result<evaluate::Session> lines_of(const std::string& folder, const StationRoles& roles) {
-  AcquireOptions options;
-  options.run.replay = folder;
-  options.run.pace = Pace::fast;
-  auto sources = make_sources(options, 0);
-  if (!sources) return fail(ErrorCode::unreadable, sources.error().message);
-  evaluate::SessionOptions session = evaluate::better_session();
-  session.roles = roles;
-  session.lines = 20'000;
-  return evaluate::run_session(std::move(*sources), session);
-}
-
 TriangleMesh mesh_of(const HeldLines& lines, Mesher& mesher) {
-  for (const auto& line : lines)
-    mesher.add_line(
-        {.points = line->points, .seen_from = line->seen_from, .time = line->time, .id = line->serial});
+  for (const auto& line : lines) mesher.add_line(surface_line(*line));
   return mesher.mesh();
 }
 
 void print_counts(const std::string& file, const std::string& frame, const TriangleMesh& mesh,
                   const MesherCounters& counters) {
-  const auto filled = std::count(mesh.origin.begin(), mesh.origin.end(), TriangleOrigin::filled);
+  const std::size_t filled = mesh.filled_count();
   fmt::print("{}: {} triangles, {:.1f} mm^2, frame {}, millimetres\n", file, mesh.triangle_count(),
              mesh.area(), frame);
   if (filled != 0) fmt::print("{} of the triangles fill holes: nobody measured them\n", filled);
@@ -60,24 +45,21 @@ Result<void> run(const SurfaceCommand& command) {
   if (!mesher) return tl::unexpected(mesher.error());
   const auto recording = open_recording(command.recording);
   if (!recording) return tl::unexpected(recording.error());
-  const StationRoles roles{recording->info.endoscope_station, recording->info.object_station,
-                           recording->info.harvester_station};
-  const auto session = lines_of(command.recording, roles);
+  const StationRoles roles = evaluate::roles_of(recording->info);
+  const auto session = evaluate::run_recording(command.recording, roles, evaluate::better_session());
   if (!session) return tl::unexpected(session.error());
   const TriangleMesh mesh = mesh_of(session->lines, **mesher);
   if (mesh.empty())
     return fail(ErrorCode::invalid, fmt::format("{}: {} lines, and no surface in them", command.recording,
                                                 session->lines.size()));
-  const std::string frame = roles.object >= 0 ? "Object" : "World";
+  const std::string frame = frame_name(roles.object >= 0 ? HeldIn::object : HeldIn::world);
   if (auto written = write_mesh(mesh, command.mesh, frame); !written) return written;
   print_counts(command.mesh, frame, mesh, (*mesher)->counters());
   return {};
 }
 
 void add_options(CLI::App& app, SurfaceCommand& command) {
-  const std::map<std::string, MeshMethod> methods{{"implicit", MeshMethod::implicit},
-                                                  {"pmc", MeshMethod::proposed_cubes},
-                                                  {"cmc", MeshMethod::classical_cubes}};
+  const std::map<std::string, MeshMethod> methods(kMeshMethodWords.begin(), kMeshMethodWords.end());
   app.add_option("RECORDING", command.recording, "Folder of a recording")->required();
   app.add_option("MESH", command.mesh, "File to write: .vtp (everything), .ply, .stl or .obj")->required();
   app.add_option("--method", command.options.method, "implicit, pmc (the thesis's) or cmc")

@@ -114,6 +114,7 @@ class MainWindow : public QMainWindow {
   void pick_region();
   void mark_region();
   void stop_picking();
+  void clear_distance();
   void choose_file();
   void save_picture_now();
   std::vector<StageLatency> stages() const;

@@ -44,13 +44,15 @@ void MainWindow::act_on_files(OperatorAction action) {
 }
 
 void MainWindow::stop_picking() {
-  if (picking_ == Picking::distance) {
-    ends_.clear();
-    scene().marks().set_distance(ends_);
-    surface_page_->show_measurement("press D, then click two points");
-  }
+  if (picking_ == Picking::distance) clear_distance();
   if (picking_ == Picking::region) surface_page_->evaluation().clear_result();
   picking_ = Picking::nothing;
+}
+
+void MainWindow::clear_distance() {
+  ends_.clear();
+  scene().marks().set_distance(ends_);
+  surface_page_->clear_measurement();
 }
 
 void MainWindow::pick_region() {
@@ -98,10 +100,8 @@ void MainWindow::show_evaluation(const Result<ShapeEvaluation>& result) {
 
 void MainWindow::show_other_scan(const MesherOptions& mesher) {
   stop_picking();
-  ends_.clear();
+  clear_distance();
   measured_.clear();
-  scene().marks().set_distance(ends_);
-  surface_page_->show_measurement("press D, then click two points");
   surface_page_->evaluation().set_region(std::nullopt);
   surface_page_->evaluation().clear_result();
   surface_page_->set_options(mesher);

@@ -25,11 +25,9 @@ constexpr ColourBy kColours[] = {ColourBy::plain, ColourBy::height, ColourBy::un
                                  ColourBy::coverage};
 
 std::string size_of(const SurfaceView& s) {
-  const auto filled = std::count(s.mesh->origin.begin(), s.mesh->origin.end(), TriangleOrigin::filled);
-  return fmt::format(
-      "{} triangles{}, {} grid points", grouped(s.mesh->triangle_count()),
-      filled > 0 ? fmt::format(" ({} close holes)", grouped(static_cast<std::size_t>(filled))) : "",
-      grouped(s.grid ? s.grid->size() : 0));
+  return fmt::format("{} triangles{}, {} grid points", grouped(s.mesh->triangle_count()),
+                     s.filled > 0 ? fmt::format(" ({} close holes)", grouped(s.filled)) : "",
+                     grouped(s.grid ? s.grid->size() : 0));
 }
 
 }  // namespace
@@ -45,7 +43,7 @@ SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* par
   area_ = add_row("Area");
   drawn_ = add_row("Drawn");
   measured_ = add_row("Distance");
-  show_measurement("press D, then click two points");
+  clear_measurement();
   evaluation_ = new EvaluationBox(hooks_.evaluation, this);
   column_->addWidget(evaluation_);
   column_->addStretch(1);
@@ -183,6 +181,10 @@ bool SurfacePage::smooth() const {
 
 void SurfacePage::show_measurement(const QString& text) {
   measured_->set_text(text);
+}
+
+void SurfacePage::clear_measurement() {
+  show_measurement("press D, then click two points");
 }
 
 void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {

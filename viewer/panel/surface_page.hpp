@@ -37,6 +37,7 @@ class SurfacePage : public SidePage {
   void toggle_normals();
   void toggle_holes();
   void show_measurement(const QString& text);
+  void clear_measurement();
 
   /// The surface was made otherwise than here: a file.
   void set_options(const MesherOptions& options);

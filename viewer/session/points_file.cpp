@@ -15,15 +15,6 @@ namespace {
 constexpr const char* kPointsHead = "line,x_mm,y_mm,z_mm,deviation_mm,intensity";
 constexpr const char* kLinesHead = "line,time_ns,seen_from_x_mm,seen_from_y_mm,seen_from_z_mm";
 
-Result<void> written(std::ofstream& out, const std::filesystem::path& file) {
-  if (out.flush()) return {};
-  return fail(ErrorCode::full, file.string() + " cannot be written: is the disk full?");
-}
-
-tl::unexpected<Error> given_up() {
-  return fail(ErrorCode::gone, "Given up, as asked.");
-}
-
 double between(std::pair<double, double> share, double part) {
   return share.first + (share.second - share.first) * part;
 }
@@ -78,6 +69,15 @@ Result<HeldLines> read_lines(const std::filesystem::path& file, Found& found) {
 
 }  // namespace
 
+Result<void> flushed(std::ofstream& out, const std::filesystem::path& file) {
+  if (out.flush()) return {};
+  return fail(ErrorCode::full, file.string() + " cannot be written: is the disk full?");
+}
+
+tl::unexpected<Error> given_up() {
+  return fail(ErrorCode::gone, "Given up, as asked.");
+}
+
 Result<void> write_points(const HeldLines& lines, const std::filesystem::path& folder, JobControl& control,
                           std::pair<double, double> share) {
   std::ofstream points(folder / "points.csv"), heads(folder / "lines.csv");
@@ -97,8 +97,8 @@ Result<void> write_points(const HeldLines& lines, const std::filesystem::path& f
     if (!control.go_on(between(share, static_cast<double>(i + 1) / static_cast<double>(lines.size()))))
       return given_up();
   }
-  if (auto ok = written(points, folder / "points.csv"); !ok) return ok;
-  return written(heads, folder / "lines.csv");
+  if (auto ok = flushed(points, folder / "points.csv"); !ok) return ok;
+  return flushed(heads, folder / "lines.csv");
 }
 
 Result<HeldLines> read_points(const std::filesystem::path& folder, JobControl& control,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 
 #include "common/result.hpp"
 #include "viewer/background_job.hpp"
@@ -18,5 +19,10 @@ Result<void> write_points(const HeldLines& lines, const std::filesystem::path& f
 /// coordinate that is not finite.
 Result<HeldLines> read_points(const std::filesystem::path& folder, JobControl& control,
                               std::pair<double, double> share);
+
+/// What every file of a session ends with: all of it written, or a sentence.
+Result<void> flushed(std::ofstream& out, const std::filesystem::path& file);
+/// The answer of work that was cancelled.
+tl::unexpected<Error> given_up();
 
 }  // namespace linescope

@@ -21,19 +21,12 @@ constexpr std::pair<double, double> kPointsShare{0.0, 0.8};
 Result<void> write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
-  if (out.flush()) return {};
-  return fail(ErrorCode::full, file.string() + " cannot be written: is the disk full?");
+  return flushed(out, file);
 }
 
 const char* method_word(MeshMethod method) {
-  switch (method) {
-    case MeshMethod::proposed_cubes:
-      return "pmc";
-    case MeshMethod::classical_cubes:
-      return "cmc";
-    case MeshMethod::implicit:
-      return "implicit";
-  }
+  for (const auto& [word, one] : kMeshMethodWords)
+    if (one == method) return word;
   return "?";
 }
 
@@ -75,7 +68,7 @@ Result<void> write_all(const Session& s, const fs::path& folder, const std::vect
   if (auto ok = write_points(s.lines, folder, control, kPointsShare); !ok) return ok;
   if (s.mesh && !s.mesh->empty())
     if (auto ok = write_mesh(*s.mesh, folder / "surface.ply", frame_name(s.held_in)); !ok) return ok;
-  if (!control.go_on(0.95)) return fail(ErrorCode::gone, "Given up, as asked.");
+  if (!control.go_on(0.95)) return given_up();
   std::error_code error;
   std::vector<std::string> names;
   fs::create_directory(folder / "pictures", error);
@@ -118,8 +111,8 @@ Result<void> read_heading(const fs::path& file, Session& s) {
   s.held_in = t["frame"].value_or(std::string()) == "World" ? HeldIn::world : HeldIn::object;
   s.method = t["mesh"]["made_by"].value_or(std::string());
   const std::string method = t["mesh"]["method"].value_or(std::string("pmc"));
-  for (const MeshMethod m : {MeshMethod::proposed_cubes, MeshMethod::classical_cubes, MeshMethod::implicit})
-    if (method == method_word(m)) s.mesher.method = m;
+  for (const auto& [word, one] : kMeshMethodWords)
+    if (method == word) s.mesher.method = one;
   s.mesher.interval = t["mesh"]["interval_mm"].value_or(s.mesher.interval);
   return validate(s.mesher);
 }
@@ -150,10 +143,6 @@ std::size_t Session::point_count() const {
   std::size_t sum = 0;
   for (const auto& line : lines) sum += line->points.size();
   return sum;
-}
-
-const char* frame_name(HeldIn held_in) {
-  return held_in == HeldIn::object ? "Object" : "World";
 }
 
 Result<void> save_session(const Session& session, const fs::path& folder,

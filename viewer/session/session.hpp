@@ -44,9 +44,6 @@ struct Session {
   std::size_t point_count() const;
 };
 
-/// "Object" or "World", as in the files.
-const char* frame_name(HeldIn held_in);
-
 /// `folder` must not exist. `pictures`: PNG files with their names, written already; they are moved into the
 /// session. Refused with a sentence; given up (ErrorCode::gone) when `control` says so: nothing is left then.
 Result<void> save_session(const Session& session, const std::filesystem::path& folder,

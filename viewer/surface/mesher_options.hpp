@@ -1,8 +1,10 @@
 // What a person can choose about the surface.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "common/result.hpp"
 #include "common/time.hpp"
@@ -14,6 +16,12 @@ enum class MeshMethod : std::uint8_t {
   classical_cubes,  ///< CMC, thesis 4.3.1: point counts as densities, linear interpolation
   implicit,         ///< one-sided surface from local fits (docs/surface.md)
 };
+
+/// As command lines and files name them.
+inline constexpr std::array<std::pair<const char*, MeshMethod>, 3> kMeshMethodWords{
+    {{"pmc", MeshMethod::proposed_cubes},
+     {"cmc", MeshMethod::classical_cubes},
+     {"implicit", MeshMethod::implicit}}};
 
 /// The thesis's four cubic intervals (Fig 4.8), mm. Any positive value is valid.
 inline constexpr double kThesisIntervals[] = {0.635, 1.27, 2.54, 5.08};

@@ -1,6 +1,7 @@
 #include "viewer/surface/triangle_mesh.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace linescope {
 
@@ -11,6 +12,10 @@ void TriangleMesh::clear() {
   observations.clear();
   triangles.clear();
   origin.clear();
+}
+
+std::size_t TriangleMesh::filled_count() const {
+  return static_cast<std::size_t>(std::count(origin.begin(), origin.end(), TriangleOrigin::filled));
 }
 
 double TriangleMesh::area() const {

@@ -27,6 +27,8 @@ struct TriangleMesh {
   std::size_t vertex_count() const { return positions.size(); }
   std::size_t triangle_count() const { return triangles.size(); }
   bool empty() const { return triangles.empty(); }
+  /// Triangles that close holes.
+  std::size_t filled_count() const;
 
   /// Empties all arrays and keeps their memory.
   void clear();
