@@ -1,6 +1,7 @@
 // The window's texts as an object for scripts and tests.
 #include <QJsonArray>
 #include <QLabel>
+#include <QPushButton>
 
 #include "common/units.hpp"
 #include "viewer/panel/angle_display.hpp"
@@ -23,6 +24,14 @@ QJsonObject json(const Readout& readout) {
 
 QJsonObject json(const QRect& r) {
   return {{"x", r.x()}, {"y", r.y()}, {"width", r.width()}, {"height", r.height()}};
+}
+
+/// Where the buttons of the bar are in the window, by the actions' names.
+QJsonObject places(const TopBar& bar, const QWidget& window) {
+  QJsonObject all;
+  for (const auto& [action, button] : bar.buttons())
+    all[info(action).id] = json(QRect(button->mapTo(&window, QPoint()), button->size()));
+  return all;
 }
 
 double number(std::uint64_t value) {
@@ -96,6 +105,7 @@ QJsonObject MainWindow::displayed_state() const {
       {"closing_holes_mm", surface_page_->options().fill_holes_up_to},
       {"filled_triangles", number(scene.surface().filled_triangles())},
       {"view_area", json(QRect(views_->mapTo(this, QPoint()), views_->size()))},
+      {"buttons", places(*top_, *this)},
       {"measurement", surface_page_->measurement()},
       {"measured_mm", measured_.empty() ? 0 : measured_.back()},
       {"evaluation", surface_page_->evaluation().text()},

@@ -24,6 +24,7 @@ class TopBar : public QFrame {
   void show_scanning(bool scanning, bool attached, bool file);
 
   QPushButton* button(OperatorAction action) const { return buttons_.at(action); }
+  const std::map<OperatorAction, QPushButton*>& buttons() const { return buttons_; }
 
  private:
   QPushButton* add(OperatorAction action, const QString& text, bool checkable);
