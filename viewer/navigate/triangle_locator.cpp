@@ -1,6 +1,7 @@
 #include "viewer/navigate/triangle_locator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace linescope {
@@ -27,6 +28,36 @@ Eigen::Vector3f nearest_on(const Eigen::Vector3f& a, const Eigen::Vector3f& ab, 
   const float whole = 1 / (va + vb + vc);
   return a + vb * whole * ab + vc * whole * ac;
 }
+
+/// Squared distance from a place to cells around the one it lies in.
+class Gaps {
+ public:
+  Gaps(const CellGrid& grid, const CellIndex& home, const Eigen::Vector3f& place)
+      : home_(home),
+        size_(static_cast<float>(grid.cell_size())),
+        half_(size_ / 2),
+        from_centre_((place.cast<double>() - grid.centre_of(home)).cast<float>()) {}
+
+  float squared(const CellIndex& cell) const {
+    const CellIndex steps = cell - home_;
+    return squared(0, steps.x()) + squared(1, steps.y()) + squared(2, steps.z());
+  }
+  /// Of cells that many steps along an axis: the part of this axis.
+  float squared(int axis, int steps) const {
+    const float gap =
+        std::max(std::abs(from_centre_[axis] - size_ * static_cast<float>(steps)) - half_, 0.0f);
+    return gap * gap;
+  }
+  /// Everything nearer than this lies in the box of that many rings around home.
+  float certain(int rings) const {
+    return half_ - from_centre_.cwiseAbs().maxCoeff() + static_cast<float>(rings) * size_;
+  }
+
+ private:
+  CellIndex home_;
+  float size_, half_;
+  Eigen::Vector3f from_centre_;
+};
 
 }  // namespace
 
@@ -74,8 +105,6 @@ void TriangleLocator::visit_cells_of(const Stored& t, Visit&& visit) {
 void TriangleLocator::enter(const Triangle& t, std::uint64_t owner, std::vector<std::int32_t>& mine) {
   const Eigen::Vector3f centre = (t.a + t.b + t.c) / 3;
   if (!centre.allFinite() || !grid_.holds(centre.cast<double>())) return;
-  const float radius = std::sqrt(
-      std::max({(t.a - centre).squaredNorm(), (t.b - centre).squaredNorm(), (t.c - centre).squaredNorm()}));
   std::int32_t place;
   if (free_.empty()) {
     place = static_cast<std::int32_t>(triangles_.size());
@@ -86,58 +115,97 @@ void TriangleLocator::enter(const Triangle& t, std::uint64_t owner, std::vector<
   }
   Stored& stored = triangles_[static_cast<std::size_t>(place)];
   stored = {t.a, t.b - t.a, t.c - t.a, owner};
-  visit_cells_of(stored, [&](std::vector<Entry>& cell) { cell.push_back({centre, radius, place}); });
+  visit_cells_of(stored, [&](Cell& cell) {
+    int lane = cell.empty() ? -1 : cell.back().lane_of(TriangleBatch::kNone);
+    if (lane < 0) {
+      cell.emplace_back();
+      lane = 0;
+    }
+    cell.back().put(lane, stored.a, stored.ab, stored.ac, place);
+  });
   mine.push_back(place);
   ++size_;
 }
 
+/// The last of the cell takes its place, so that only the last batch has free lanes.
 void TriangleLocator::remove(std::int32_t triangle) {
-  visit_cells_of(triangles_[static_cast<std::size_t>(triangle)], [&](std::vector<Entry>& cell) {
-    std::erase_if(cell, [&](const Entry& entry) { return entry.triangle == triangle; });
+  visit_cells_of(triangles_[static_cast<std::size_t>(triangle)], [&](Cell& cell) {
+    const auto batch = std::find_if(cell.begin(), cell.end(),
+                                    [&](const TriangleBatch& b) { return b.lane_of(triangle) >= 0; });
+    if (batch == cell.end()) return;
+    TriangleBatch& last = cell.back();
+    const int free = last.lane_of(TriangleBatch::kNone), end = (free < 0 ? TriangleBatch::kLanes : free) - 1;
+    const std::int32_t moved = last.triangle[static_cast<std::size_t>(end)];
+    const Stored& t = triangles_[static_cast<std::size_t>(moved)];
+    batch->put(batch->lane_of(triangle), t.a, t.ab, t.ac, moved);
+    last.empty(end);
+    if (end == 0) cell.pop_back();
   });
   free_.push_back(triangle);
   --size_;
 }
 
-float TriangleLocator::distance_to_cell(const CellIndex& c, const Eigen::Vector3f& place) const {
-  const auto half = static_cast<float>(grid_.cell_size() / 2);
-  const Eigen::Vector3f from_centre = (place - grid_.centre_of(c).cast<float>()).cwiseAbs();
-  return (from_centre.array() - half).max(0.0f).matrix().norm();
+void TriangleLocator::look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const {
+  for (const TriangleBatch& batch : cells_[static_cast<std::size_t>(cell)]) {
+    const int lane = nearer_lane(batch, place, best.squared);
+    if (lane != TriangleBatch::kNoLane) best.triangle = batch.triangle[static_cast<std::size_t>(lane)];
+  }
 }
 
-void TriangleLocator::look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const {
-  for (const Entry& entry : cells_[static_cast<std::size_t>(cell)]) {
-    // A triangle whose ball is farther than the best so far cannot win.
-    const float beyond = best.distance + entry.radius;
-    if ((entry.centre - place).squaredNorm() >= beyond * beyond || entry.triangle == best.triangle) continue;
-    const Stored& t = triangles_[static_cast<std::size_t>(entry.triangle)];
-    const Eigen::Vector3f point = nearest_on(t.a, t.ab, t.ac, place);
-    const float squared = (point - place).squaredNorm();
-    if (squared < best.distance * best.distance) best = {std::sqrt(squared), entry.triangle, point};
+/// The cell of the place and its 26 neighbours, the nearest first: most are then too far to be looked into.
+void TriangleLocator::look_next_door(const CellIndex& home, const Eigen::Vector3f& place, Best& best) const {
+  struct Door {
+    float gap;
+    std::int32_t cell;
+  };
+  std::array<Door, 27> doors;
+  std::size_t count = 0;
+  const Gaps gaps(grid_, home, place);
+  std::array<std::array<float, 3>, 3> along;  // axis by axis: before, at home, behind
+  for (int axis = 0; axis < 3; ++axis)
+    for (int step = -1; step <= 1; ++step)
+      along[static_cast<std::size_t>(axis)][static_cast<std::size_t>(step + 1)] = gaps.squared(axis, step);
+  const CellIndex low = home - CellIndex::Ones();
+  grid_.visit_box(low, home + CellIndex::Ones(), [&](std::int32_t cell, const CellIndex& c) {
+    const auto step = [&](int axis) { return static_cast<std::size_t>(c[axis] - low[axis]); };
+    doors[count++] = {along[0][step(0)] + along[1][step(1)] + along[2][step(2)], cell};
+  });
+  while (count > 0) {
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < count; ++i)
+      if (doors[i].gap < doors[next].gap) next = i;
+    if (doors[next].gap >= best.squared) return;
+    look_into(doors[next].cell, place, best);
+    doors[next] = doors[--count];
   }
+}
+
+/// The rings after `from` up to `to`.
+void TriangleLocator::look_farther(const CellIndex& home, int from, int to, const Eigen::Vector3f& place,
+                                   Best& best) const {
+  const Gaps gaps(grid_, home, place);
+  const CellIndex r = CellIndex::Constant(to);
+  grid_.visit_box(home - r, home + r, [&](std::int32_t cell, const CellIndex& c) {
+    if ((c - home).cwiseAbs().maxCoeff() > from && gaps.squared(c) < best.squared)
+      look_into(cell, place, best);
+  });
 }
 
 std::optional<TriangleLocator::Nearest> TriangleLocator::nearest(const Eigen::Vector3f& place,
                                                                  float reach) const {
   if (size_ == 0 || !place.allFinite() || !grid_.holds(place.cast<double>())) return std::nullopt;
-  Best best{reach};
+  Best best{reach * reach};
   const CellIndex home = grid_.cell_of(place.cast<double>());
-  // Everything nearer than the wall of the box looked at has been seen.
-  const Eigen::Vector3d from_centre = (place.cast<double>() - grid_.centre_of(home)).cwiseAbs();
-  const double to_wall = grid_.cell_size() / 2 - from_centre.maxCoeff();
-  int seen = -1;
-  for (int ring = 0;; ring = ring == 0 ? 1 : 2 * ring) {
-    const CellIndex r = CellIndex::Constant(ring);
-    grid_.visit_box(home - r, home + r, [&](std::int32_t cell, const CellIndex& c) {
-      if ((c - home).cwiseAbs().maxCoeff() <= seen || distance_to_cell(c, place) >= best.distance) return;
-      look_into(cell, place, best);
-    });
-    seen = ring;
-    const double certain = to_wall + ring * grid_.cell_size();
-    if (static_cast<double>(best.distance) <= certain || certain > static_cast<double>(reach)) break;
+  const Gaps gaps(grid_, home, place);
+  look_next_door(home, place, best);
+  for (int ring = 1; gaps.certain(ring) < reach; ring *= 2) {
+    if (best.squared <= gaps.certain(ring) * gaps.certain(ring)) break;
+    look_farther(home, ring, 2 * ring, place, best);
   }
-  if (best.triangle < 0) return std::nullopt;
-  return Nearest{triangles_[static_cast<std::size_t>(best.triangle)].owner, best.point, best.distance};
+  if (best.triangle == TriangleBatch::kNone) return std::nullopt;
+  const Stored& t = triangles_[static_cast<std::size_t>(best.triangle)];
+  const Eigen::Vector3f point = nearest_on(t.a, t.ab, t.ac, place);
+  return Nearest{t.owner, point, (point - place).norm()};
 }
 
 }  // namespace linescope

@@ -1,10 +1,10 @@
 // The point of a triangle mesh nearest to a place (target T14), kept current triangle by triangle while the
 // mesh changes.
 //
-// Triangles are entered in every cell of a sparse grid that their box touches; a search looks at the cells
-// around the place, ring by ring, leaving out those that are farther than the best so far, until no nearer
-// triangle can lie farther out. Exact: never farther than the brute-force answer. One thread may change it
-// while nobody searches; any number may search.
+// Triangles are entered, eight side by side, in every cell of a sparse grid that their box touches. A search
+// looks into the cells next to the place, the nearest cell first, then ring by ring, and leaves out those
+// that are farther than the best so far, until no nearer triangle can lie farther out. Exact: never farther
+// than the brute-force answer. One thread may change it while nobody searches; any number may search.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "viewer/navigate/cell_grid.hpp"
+#include "viewer/navigate/triangle_batch.hpp"
 #include "viewer/surface/triangle_mesh.hpp"
 
 namespace linescope {
@@ -52,27 +53,22 @@ class TriangleLocator {
     Eigen::Vector3f a, ab, ac;
     std::uint64_t owner = 0;
   };
-  /// A triangle's ball, beside its cell, so that most triangles need not be touched.
-  struct Entry {
-    Eigen::Vector3f centre;
-    float radius;
-    std::int32_t triangle;
-  };
+  using Cell = std::vector<TriangleBatch>;
   struct Best {
-    float distance;
-    std::int32_t triangle = -1;
-    Eigen::Vector3f point = Eigen::Vector3f::Zero();
+    float squared;
+    std::int32_t triangle = TriangleBatch::kNone;
   };
 
   void enter(const Triangle& triangle, std::uint64_t owner, std::vector<std::int32_t>& mine);
   void remove(std::int32_t triangle);
   template <class Visit>
   void visit_cells_of(const Stored& triangle, Visit&& visit);
-  float distance_to_cell(const CellIndex& c, const Eigen::Vector3f& place) const;
   void look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const;
+  void look_next_door(const CellIndex& home, const Eigen::Vector3f& place, Best& best) const;
+  void look_farther(const CellIndex& home, int from, int to, const Eigen::Vector3f& place, Best& best) const;
 
   CellGrid grid_;
-  std::vector<std::vector<Entry>> cells_;
+  std::vector<Cell> cells_;
   std::vector<Stored> triangles_;
   std::vector<std::int32_t> free_;
   std::unordered_map<std::uint64_t, std::vector<std::int32_t>> owners_;

@@ -39,6 +39,53 @@ float sampled_distance(const TriangleMesh& mesh, const Vector3f& p) {
   return std::sqrt(best);
 }
 
+/// Corners at random, some with two or three of them in one place or on one line.
+std::vector<std::array<Vector3f, 3>> random_triangles(std::mt19937& random, int count) {
+  std::normal_distribution<float> normal;
+  std::vector<std::array<Vector3f, 3>> triangles;
+  for (int i = 0; i < count; ++i) {
+    std::array<Vector3f, 3> t;
+    for (Vector3f& corner : t) corner = {normal(random), normal(random), normal(random)};
+    if (i % 10 == 7) t[1] = t[0];
+    if (i % 10 == 8) t[2] = 0.5f * (t[0] + t[1]);
+    if (i % 10 == 9) t[1] = t[2] = t[0];
+    triangles.push_back(t);
+  }
+  return triangles;
+}
+
+TEST(TriangleBatch, FindsTheNearestOfEightWithAndWithoutVectorRegisters) {
+  std::mt19937 random(4);
+  std::normal_distribution<float> normal;
+  for (int round = 0; round < 200; ++round) {
+    const auto triangles = random_triangles(random, 1 + round % 8);
+    TriangleBatch batch;
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const auto& [a, b, c] = triangles[i];
+      batch.put(static_cast<int>(i), a, b - a, c - a, static_cast<std::int32_t>(i));
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.insert(mesh.positions.end(), {a, b, c});
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    const Vector3f place(normal(random), normal(random), 2 * normal(random));
+    float best = 1e6f, portable_best = 1e6f;
+    const int lane = nearer_lane(batch, place, best);
+    ASSERT_GE(lane, 0);
+    ASSERT_LT(lane, static_cast<int>(triangles.size())) << "an empty lane is never the nearest";
+    ASSERT_NE(nearer_lane_portable(batch, place, portable_best), TriangleBatch::kNoLane);
+    EXPECT_NEAR(std::sqrt(best), std::sqrt(portable_best), 1e-5f);
+    const float sampled = sampled_distance(mesh, place);
+    EXPECT_LE(std::sqrt(best), sampled + 1e-4f);
+    float longest = 0;
+    for (const auto& [a, b, c] : triangles)
+      longest = std::max({longest, (b - a).norm(), (c - a).norm(), (c - b).norm()});
+    EXPECT_GE(std::sqrt(best), sampled - longest / 20);  // samples are that far apart
+    EXPECT_EQ(nearer_lane(batch, place, best), TriangleBatch::kNoLane)
+        << "nothing is nearer than the nearest";
+  }
+}
+
 TEST(TriangleLocator, IsNeverFartherThanAnySampleOfTheMesh) {
   const TriangleMesh mesh = bumpy_mesh(12, 1.0f);
   TriangleLocator locator;
