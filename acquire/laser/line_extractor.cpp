@@ -73,7 +73,7 @@ void LineExtractor::Work::find_candidates(const PictureView& picture) {
     noise.clear();
   }
   const bool shape = options.centre == CentreMethod::gauss_weighted;
-  runs.find(picture, rule, options.merge_gap, fastest_row_marker(picture, rule), shape);
+  runs.find(picture, rule, options.merge_gap, fastest_marker(picture, rule), shape);
   line.crowded = runs.dropped();
   const std::array<float, 3>& scene = runs.ambient();
   const auto channel = [&](int i) { return scene[static_cast<std::size_t>((lead + i) % 3)]; };

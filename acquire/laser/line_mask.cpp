@@ -79,15 +79,17 @@ MaskRule mask_rule(const LineExtractorOptions& options, int channels) {
   return rule;
 }
 
-void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words) {
-  for (int x = 0; x < picture.width; x += kMaskGroup) *words++ = mask_detail::mark_group(picture, rule, y, x);
+void mark_picture(const PictureView& picture, const MaskRule& rule, std::uint32_t* words) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; x += kMaskGroup)
+      *words++ = mask_detail::mark_group(picture, rule, y, x);
 }
 
-RowMarker fastest_row_marker(const PictureView& picture, const MaskRule& rule) {
-  if (picture.channels != 3) return &mark_row;
-  if (const RowMarker m = mask_detail::avx512_row_marker(rule)) return m;
-  if (const RowMarker m = mask_detail::avx2_row_marker(rule)) return m;
-  return &mark_row;
+Marker fastest_marker(const PictureView& picture, const MaskRule& rule) {
+  if (picture.channels != 3) return &mark_picture;
+  if (const Marker m = mask_detail::avx512_marker(rule)) return m;
+  if (const Marker m = mask_detail::avx2_marker(rule)) return m;
+  return &mark_picture;
 }
 
 }  // namespace linescope

@@ -27,15 +27,15 @@ constexpr int mask_words(int width) {
   return (width + kMaskGroup - 1) / kMaskGroup;
 }
 
-/// Marks one row of the picture. A side of the ridge test that would leave the picture is not asked (along
-/// rows: for the whole group), and with no side left the test marks nothing.
-using RowMarker = void (*)(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words);
+/// Marks the picture, row after row in `words`. A side of the ridge test that would leave the picture is not
+/// asked (along rows: for the whole group), and with no side left the test marks nothing.
+using Marker = void (*)(const PictureView& picture, const MaskRule& rule, std::uint32_t* words);
 
 /// Plain C++, the definition of what is marked.
-void mark_row(const PictureView& picture, const MaskRule& rule, int y, std::uint32_t* words);
+void mark_picture(const PictureView& picture, const MaskRule& rule, std::uint32_t* words);
 
-/// The same marks by the longest vectors that the processor has; mark_row for grey pictures and other
+/// The same marks by the longest vectors that the processor has; mark_picture for grey pictures and other
 /// processors.
-RowMarker fastest_row_marker(const PictureView& picture, const MaskRule& rule);
+Marker fastest_marker(const PictureView& picture, const MaskRule& rule);
 
 }  // namespace linescope

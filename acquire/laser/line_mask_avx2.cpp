@@ -63,10 +63,9 @@ LINESCOPE_AVX2_INLINE std::uint32_t pixel_bits(__m256i found, std::uint32_t lane
 }
 
 struct MarkAvx2 {
-  /// `q`: first byte of the first pixel.
   template <unsigned On, bool Ridge>
-  LINESCOPE_AVX2 static int row(const std::uint8_t* q, const MaskRule& rule, const Sides& sides, int groups,
-                                std::uint32_t* words) {
+  LINESCOPE_AVX2 static int mark(std::span<const mask_detail::MarkedRow> rows, const MaskRule& rule,
+                                 int groups) {
     constexpr int kLead = mask_detail::lead_of(On);
     constexpr std::uint32_t kLanes0 = lanes_of<std::uint32_t>(kLead, 0),
                             kLanes1 = lanes_of<std::uint32_t>(kLead, 32),
@@ -76,21 +75,21 @@ struct MarkAvx2 {
                        _mm256_set1_epi8(static_cast<char>(rule.ridge_threshold - 1))};
     const __m256i lead0 = load(kLeadBytes<kLead>.data()), lead1 = load(kLeadBytes<kLead>.data() + 32),
                   lead2 = load(kLeadBytes<kLead>.data() + 64);
-    const std::uint8_t* const ahead =
-        q + mask_detail::kPrefetch + (Ridge && sides.after > 0 ? sides.after : 0);
     for (int group = 0; group < groups; ++group) {
-      const std::ptrdiff_t at = group * mask_detail::kGroupBytes;
-      for (int line = 0; line < 2; ++line)
-        _mm_prefetch(reinterpret_cast<const char*>(ahead + at + 64 * line), _MM_HINT_T0);
-      const __m256i f0 = passes<On, Ridge>(q + at, lead0, sides, t),
-                    f1 = passes<On, Ridge>(q + at + 32, lead1, sides, t),
-                    f2 = passes<On, Ridge>(q + at + 64, lead2, sides, t);
-      const __m256i any = _mm256_or_si256(f0, _mm256_or_si256(f1, f2));
-      std::uint32_t pixels = 0;
-      if (!_mm256_testz_si256(any, any))
-        pixels =
-            pixel_bits(f0, kLanes0) | pixel_bits(f1, kLanes1) << kFirst1 | pixel_bits(f2, kLanes2) << kFirst2;
-      words[group] = pixels;
+      for (const mask_detail::MarkedRow& row : rows) {
+        const std::uint8_t* const q = row.pixels + group * mask_detail::kGroupBytes;
+        for (int line = 0; line < 2; ++line)
+          _mm_prefetch(reinterpret_cast<const char*>(q + row.ahead + 64 * line), _MM_HINT_T0);
+        const __m256i f0 = passes<On, Ridge>(q, lead0, row.sides, t),
+                      f1 = passes<On, Ridge>(q + 32, lead1, row.sides, t),
+                      f2 = passes<On, Ridge>(q + 64, lead2, row.sides, t);
+        const __m256i any = _mm256_or_si256(f0, _mm256_or_si256(f1, f2));
+        std::uint32_t pixels = 0;
+        if (!_mm256_testz_si256(any, any))
+          pixels = pixel_bits(f0, kLanes0) | pixel_bits(f1, kLanes1) << kFirst1 |
+                   pixel_bits(f2, kLanes2) << kFirst2;
+        row.words[group] = pixels;
+      }
     }
     return groups;
   }
@@ -98,8 +97,8 @@ struct MarkAvx2 {
 
 }  // namespace
 
-RowMarker mask_detail::avx2_row_marker(const MaskRule& rule) {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? row_marker_of<MarkAvx2>(rule)
+Marker mask_detail::avx2_marker(const MaskRule& rule) {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? marker_of<MarkAvx2>(rule)
                                                                           : nullptr;
 }
 
@@ -108,7 +107,7 @@ RowMarker mask_detail::avx2_row_marker(const MaskRule& rule) {
 #else
 
 namespace linescope {
-RowMarker mask_detail::avx2_row_marker(const MaskRule&) {
+Marker mask_detail::avx2_marker(const MaskRule&) {
   return nullptr;
 }
 }  // namespace linescope

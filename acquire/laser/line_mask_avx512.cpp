@@ -6,6 +6,7 @@
 #include <immintrin.h>
 
 #include <bit>
+#include <cstring>
 
 namespace linescope {
 namespace {
@@ -53,10 +54,9 @@ LINESCOPE_AVX512_INLINE std::uint64_t passes(const std::uint8_t* q, std::uint64_
 struct MarkAvx512 {
   static constexpr int kGroups = 2;
 
-  /// `q`: first byte of the first pixel.
   template <unsigned On, bool Ridge>
-  LINESCOPE_AVX512 static int row(const std::uint8_t* q, const MaskRule& rule, const Sides& sides, int groups,
-                                  std::uint32_t* words) {
+  LINESCOPE_AVX512 static int mark(std::span<const mask_detail::MarkedRow> rows, const MaskRule& rule,
+                                   int groups) {
     constexpr int kLead = mask_detail::lead_of(On);
     constexpr std::uint64_t kLanes0 = lanes_of<std::uint64_t>(kLead, 0),
                             kLanes1 = lanes_of<std::uint64_t>(kLead, 64),
@@ -64,22 +64,21 @@ struct MarkAvx512 {
     constexpr int kFirst1 = std::popcount(kLanes0), kFirst2 = kFirst1 + std::popcount(kLanes1);
     const Thresholds t{_mm512_set1_epi8(static_cast<char>(rule.colour_threshold - 1)),
                        _mm512_set1_epi8(static_cast<char>(rule.ridge_threshold - 1))};
-    const std::uint8_t* const ahead =
-        q + mask_detail::kPrefetch + (Ridge && sides.after > 0 ? sides.after : 0);
     int group = 0;
-    for (std::ptrdiff_t at = 0; group + kGroups <= groups;
-         group += kGroups, at += kGroups * mask_detail::kGroupBytes) {
-      for (int line = 0; line < 3; ++line)
-        _mm_prefetch(reinterpret_cast<const char*>(ahead + at + 64 * line), _MM_HINT_T0);
-      const std::uint64_t b0 = passes<On, Ridge>(q + at, kLanes0, sides, t),
-                          b1 = passes<On, Ridge>(q + at + 64, kLanes1, sides, t),
-                          b2 = passes<On, Ridge>(q + at + 128, kLanes2, sides, t);
-      std::uint64_t pixels = 0;
-      if ((b0 | b1 | b2) != 0)
-        pixels =
-            _pext_u64(b0, kLanes0) | _pext_u64(b1, kLanes1) << kFirst1 | _pext_u64(b2, kLanes2) << kFirst2;
-      words[group] = static_cast<std::uint32_t>(pixels);
-      words[group + 1] = static_cast<std::uint32_t>(pixels >> 32);
+    for (; group + kGroups <= groups; group += kGroups) {
+      for (const mask_detail::MarkedRow& row : rows) {
+        const std::uint8_t* const q = row.pixels + group * mask_detail::kGroupBytes;
+        for (int line = 0; line < 3; ++line)
+          _mm_prefetch(reinterpret_cast<const char*>(q + row.ahead + 64 * line), _MM_HINT_T0);
+        const std::uint64_t b0 = passes<On, Ridge>(q, kLanes0, row.sides, t),
+                            b1 = passes<On, Ridge>(q + 64, kLanes1, row.sides, t),
+                            b2 = passes<On, Ridge>(q + 128, kLanes2, row.sides, t);
+        std::uint64_t pixels = 0;
+        if ((b0 | b1 | b2) != 0)
+          pixels =
+              _pext_u64(b0, kLanes0) | _pext_u64(b1, kLanes1) << kFirst1 | _pext_u64(b2, kLanes2) << kFirst2;
+        std::memcpy(row.words + group, &pixels, sizeof(pixels));
+      }
     }
     return group;
   }
@@ -87,10 +86,10 @@ struct MarkAvx512 {
 
 }  // namespace
 
-RowMarker mask_detail::avx512_row_marker(const MaskRule& rule) {
+Marker mask_detail::avx512_marker(const MaskRule& rule) {
   const bool known = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                      __builtin_cpu_supports("bmi2");
-  return known ? row_marker_of<MarkAvx512>(rule) : nullptr;
+  return known ? marker_of<MarkAvx512>(rule) : nullptr;
 }
 
 }  // namespace linescope
@@ -98,7 +97,7 @@ RowMarker mask_detail::avx512_row_marker(const MaskRule& rule) {
 #else
 
 namespace linescope {
-RowMarker mask_detail::avx512_row_marker(const MaskRule&) {
+Marker mask_detail::avx512_marker(const MaskRule&) {
   return nullptr;
 }
 }  // namespace linescope

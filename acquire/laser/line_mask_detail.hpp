@@ -17,8 +17,8 @@ struct Sides {
 Sides sides_of_group(const PictureView& picture, const MaskRule& rule, int y, int x);
 
 /// Markers for BGR pictures, or nothing where the processor cannot run them.
-RowMarker avx2_row_marker(const MaskRule& rule);
-RowMarker avx512_row_marker(const MaskRule& rule);
+Marker avx2_marker(const MaskRule& rule);
+Marker avx512_marker(const MaskRule& rule);
 
 /// Marks of the group that starts at x, at most to the end of the row.
 std::uint32_t mark_group(const PictureView& picture, const MaskRule& rule, int y, int x);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "acquire/laser/line_mask.hpp"
 #include "acquire/laser/line_mask_detail.hpp"
@@ -33,65 +34,116 @@ constexpr Bits lanes_of(int lead, int offset) {
   return lanes;
 }
 
-/// Bytes ahead of the marker that are asked from memory: far enough to arrive in time, and only a few
-/// kilobytes too many.
-inline constexpr std::ptrdiff_t kPrefetch = 4096;
-
-/// Groups [from, to) of a row see the same sides.
-struct Stretch {
-  int from = 0, to = 0;
+/// One row on its way through the vectors.
+struct MarkedRow {
+  const std::uint8_t* pixels = nullptr;
+  Sides sides;
+  std::uint32_t* words = nullptr;
+  std::ptrdiff_t ahead = 0;  ///< bytes from here to what memory should bring next
 };
 
-/// `Marker::row<On, Ridge>` marks whole groups of a stretch and says how many it did; the plain version does
-/// the others.
-template <class Marker, unsigned On, bool Ridge>
-void mark_row_by(const PictureView& p, const MaskRule& rule, int y, std::uint32_t* words) {
-  const bool along = Ridge && rule.axis == ProfileAxis::row;
-  const bool reaches_down = Ridge && !along && y + rule.reach < p.height;
-  const bool reaches_up = Ridge && !along && y >= rule.reach;
+/// Bytes ahead of the marker that are asked from memory: far enough to arrive in time.
+inline constexpr std::ptrdiff_t kPrefetch = 1024;
+
+/// Rows that are marked together, a few groups of one after a few of the next. They lie a quarter of the
+/// picture apart: memory that is asked for at several places at once delivers much faster than at one.
+inline constexpr int kRowsAtOnce = 4;
+
+/// Groups of a row: the vectors do [begin, end), and within each of the three stretches, which end at `left`,
+/// `right` and `end`, all groups see the same sides.
+struct RowPlan {
+  int begin = 0, left = 0, right = 0, end = 0;
+  bool operator==(const RowPlan&) const = default;
+};
+
+inline RowPlan plan_of_row(const PictureView& p, const MaskRule& rule, int y) {
+  const bool along = rule.ridge() && rule.axis == ProfileAxis::row, across = rule.ridge() && !along;
   // Vectors read up to two bytes before and behind their group: harmless except at the picture's first and
   // last byte.
-  const int deepest = reaches_down ? y + rule.reach : y, highest = reaches_up ? y - rule.reach : y;
-  const int begin = highest == 0 ? 1 : 0, end = p.width / kMaskGroup - (deepest >= p.height - 1 ? 1 : 0);
-  const int left = along ? (rule.reach + kMaskGroup - 1) / kMaskGroup : begin;
-  const int right = along ? (p.width - rule.reach - 1) / kMaskGroup : end;
-  const auto inside = [&](int group) { return std::clamp(group, begin, std::max(begin, end)); };
-  const int a = inside(left), b = std::max(a, inside(right));
-  const std::array stretches{Stretch{begin, a}, Stretch{a, b}, Stretch{b, std::max(b, end)}};
+  const int deepest = across && y + rule.reach < p.height ? y + rule.reach : y;
+  const int highest = across && y >= rule.reach ? y - rule.reach : y;
+  RowPlan plan;
+  plan.begin = highest == 0 ? 1 : 0;
+  plan.end = std::max(plan.begin, p.width / kMaskGroup - (deepest >= p.height - 1 ? 1 : 0));
+  plan.left =
+      along ? std::clamp((rule.reach + kMaskGroup - 1) / kMaskGroup, plan.begin, plan.end) : plan.begin;
+  plan.right = along ? std::clamp((p.width - rule.reach - 1) / kMaskGroup, plan.left, plan.end) : plan.end;
+  return plan;
+}
+
+/// `Vectors::mark<On, Ridge>` marks whole groups of a stretch of all rows and says how many of each it did;
+/// the plain version does the others.
+template <class Vectors, unsigned On, bool Ridge>
+void mark_rows_by(const PictureView& p, const MaskRule& rule, const RowPlan& plan, std::span<const int> ys,
+                  std::uint32_t* words) {
+  const std::ptrdiff_t row_words = mask_words(p.width);
   int done = 0;
-  for (const Stretch s : stretches) {
-    for (; done < s.from; ++done) words[done] = mark_group(p, rule, y, done * kMaskGroup);
-    if (s.from >= s.to) continue;
-    const Sides sides = sides_of_group(p, rule, y, s.from * kMaskGroup);
-    if (Ridge && !sides.any()) continue;
-    done += Marker::template row<On, Ridge>(p.data + p.stride * y + kGroupBytes * s.from, rule, sides,
-                                            s.to - s.from, words + s.from);
+  const auto plainly = [&](int to) {
+    for (const int y : ys)
+      for (int group = done; group < to; ++group)
+        words[y * row_words + group] = mark_group(p, rule, y, group * kMaskGroup);
+    done = to;
+  };
+  std::array<MarkedRow, kRowsAtOnce> rows;
+  int from = plan.begin;
+  for (const int to : {plan.left, plan.right, plan.end}) {
+    plainly(from);
+    bool sides = true;
+    for (std::size_t i = 0; i < ys.size(); ++i) {
+      rows[i] = {p.data + p.stride * ys[i] + kGroupBytes * from,
+                 sides_of_group(p, rule, ys[i], from * kMaskGroup), words + ys[i] * row_words + from};
+      rows[i].ahead = kPrefetch + std::max<std::ptrdiff_t>(rows[i].sides.after, 0);
+      sides = sides && rows[i].sides.any();
+    }
+    if (from < to && (!Ridge || sides))
+      done += Vectors::template mark<On, Ridge>({rows.data(), ys.size()}, rule, to - from);
+    from = std::max(from, to);
   }
-  for (; done < mask_words(p.width); ++done) words[done] = mark_group(p, rule, y, done * kMaskGroup);
+  plainly(mask_words(p.width));
 }
 
-template <class Marker, unsigned On>
-RowMarker row_marker_for(const MaskRule& rule) {
-  return rule.ridge() ? &mark_row_by<Marker, On, true> : &mark_row_by<Marker, On, false>;
+template <class Vectors, unsigned On, bool Ridge>
+void mark_picture_by(const PictureView& p, const MaskRule& rule, std::uint32_t* words) {
+  const int band = p.height / kRowsAtOnce;
+  for (int row = 0; row < band; ++row) {
+    std::array<int, kRowsAtOnce> ys{};
+    std::array<RowPlan, kRowsAtOnce> plans;
+    for (std::size_t i = 0; i < ys.size(); ++i) {
+      ys[i] = row + static_cast<int>(i) * band;
+      plans[i] = plan_of_row(p, rule, ys[i]);
+    }
+    const bool alike =
+        std::all_of(plans.begin(), plans.end(), [&](const RowPlan& o) { return o == plans[0]; });
+    const std::size_t together = alike ? ys.size() : 1;
+    for (std::size_t i = 0; i < ys.size(); i += together)
+      mark_rows_by<Vectors, On, Ridge>(p, rule, plans[i], {ys.data() + i, together}, words);
+  }
+  for (int y = band * kRowsAtOnce; y < p.height; ++y)
+    mark_rows_by<Vectors, On, Ridge>(p, rule, plan_of_row(p, rule, y), {&y, 1}, words);
 }
 
-template <class Marker>
-RowMarker row_marker_of(const MaskRule& rule) {
+template <class Vectors, unsigned On>
+Marker marker_for(const MaskRule& rule) {
+  return rule.ridge() ? &mark_picture_by<Vectors, On, true> : &mark_picture_by<Vectors, On, false>;
+}
+
+template <class Vectors>
+Marker marker_of(const MaskRule& rule) {
   switch (rule.on) {
     case 1:
-      return row_marker_for<Marker, 1>(rule);
+      return marker_for<Vectors, 1>(rule);
     case 2:
-      return row_marker_for<Marker, 2>(rule);
+      return marker_for<Vectors, 2>(rule);
     case 3:
-      return row_marker_for<Marker, 3>(rule);
+      return marker_for<Vectors, 3>(rule);
     case 4:
-      return row_marker_for<Marker, 4>(rule);
+      return marker_for<Vectors, 4>(rule);
     case 5:
-      return row_marker_for<Marker, 5>(rule);
+      return marker_for<Vectors, 5>(rule);
     case 6:
-      return row_marker_for<Marker, 6>(rule);
+      return marker_for<Vectors, 6>(rule);
     default:
-      return row_marker_for<Marker, 7>(rule);
+      return marker_for<Vectors, 7>(rule);
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
+#include <cstring>
 
 namespace linescope {
 namespace {
@@ -10,20 +10,50 @@ namespace {
 constexpr std::int16_t kNone = -1000;  // so long before the picture that any mark begins a run
 constexpr int kAmbientRows = 8;        // one row in this many, and one pixel of each group in it
 
+constexpr int kLanes = 8;
+using Columns = std::int16_t __attribute__((vector_size(kLanes * sizeof(std::int16_t))));
+
+Columns load(const std::int16_t* p) {
+  Columns v;
+  std::memcpy(&v, p, sizeof(v));
+  return v;
+}
+
+void store(std::int16_t* p, Columns v) {
+  std::memcpy(p, &v, sizeof(v));
+}
+
+/// All ones in the columns whose bit, of the lowest, is set.
+Columns chosen(std::uint32_t bits) {
+  constexpr Columns kBits{1, 2, 4, 8, 16, 32, 64, 128};
+  return (static_cast<std::int16_t>(bits & 0xFF) & kBits) != 0;
+}
+
+bool any(Columns v) {
+  std::array<std::uint64_t, 2> words{};
+  std::memcpy(words.data(), &v, sizeof(v));
+  return (words[0] | words[1]) != 0;
+}
+
 }  // namespace
 
-void RunFinder::sample_ambient(const PictureView& picture, int y) {
-  const std::uint8_t* pixel = picture.data + picture.stride * y;
-  for (const std::uint32_t marks : words_) {
-    if ((marks & 1U) == 0) {
+void RunFinder::sample_ambient(const PictureView& picture) {
+  const std::size_t words = static_cast<std::size_t>(mask_words(picture.width));
+  for (int y = 0; y < picture.height; y += kAmbientRows) {
+    const std::uint8_t* pixel = picture.data + picture.stride * y;
+    const std::uint32_t* const marks = words_.data() + words * static_cast<std::size_t>(y + 1);
+    for (std::size_t w = 0; w < words; ++w, pixel += kMaskGroup * picture.channels) {
+      if ((marks[w] & 1U) != 0) continue;
       for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += pixel[picture.channels == 3 ? c : 0];
       ++ambient_count_;
     }
-    pixel += kMaskGroup * picture.channels;
   }
+  for (std::size_t c = 0; c < 3; ++c)
+    ambient_[c] =
+        ambient_count_ > 0 ? static_cast<float>(ambient_sum_[c]) / static_cast<float>(ambient_count_) : 0;
 }
 
-void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker,
+void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, Marker marker,
                      bool want_ambient) {
   const bool columns = rule.axis == ProfileAxis::column;
   const auto profiles = static_cast<std::size_t>(profile_count(picture, rule.axis));
@@ -32,61 +62,68 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
   dropped_ = 0;
   ambient_sum_ = {};
   ambient_count_ = 0;
-  words_.resize(static_cast<std::size_t>(words));
+  ambient_ = {};
+  words_.resize(static_cast<std::size_t>(words) * static_cast<std::size_t>(picture.height + 1));
   runs_.resize(profiles * kMostRuns);
   count_.assign(profiles, 0);
+  std::fill_n(words_.begin(), words, 0U);
   if (columns) {
-    words_before_.assign(words_.size(), 0);
-    open_first_.resize(profiles);
-    open_last_.assign(profiles, kNone);
+    const std::size_t whole = static_cast<std::size_t>(words) * kMaskGroup;
+    open_first_.resize(whole);
+    open_last_.assign(whole, kNone);
   }
-  for (int y = 0; y < picture.height; ++y) {
-    marker(picture, rule, y, words_.data());
-    columns ? take_columns(y, words) : take_row(y, words);
-    if (want_ambient && y % kAmbientRows == 0) sample_ambient(picture, y);
-    if (columns) std::swap(words_, words_before_);
-  }
+  marker(picture, rule, words_.data() + words);
+  const std::uint32_t* row = words_.data() + words;
+  for (int y = 0; y < picture.height; ++y, row += words)
+    columns ? take_columns(y, row, words) : take_row(y, row, words);
   if (columns) close_columns(picture.height);
-  for (std::size_t c = 0; c < 3; ++c)
-    ambient_[c] =
-        ambient_count_ > 0 ? static_cast<float>(ambient_sum_[c]) / static_cast<float>(ambient_count_) : 0;
+  if (want_ambient) sample_ambient(picture);
 }
 
 /// Only where marks begin and end something happens, not at every marked pixel.
-void RunFinder::take_columns(int y, int words) {
-  for (int w = 0; w < words; ++w) {
-    const std::uint32_t now = words_[static_cast<std::size_t>(w)],
-                        before = words_before_[static_cast<std::size_t>(w)];
-    if (now == before) continue;
-    const int x = w * kMaskGroup;
-    for (std::uint32_t ends = before & ~now; ends != 0; ends &= ends - 1)
-      open_last_[static_cast<std::size_t>(x + std::countr_zero(ends))] = static_cast<std::int16_t>(y - 1);
-    for (std::uint32_t begins = now & ~before; begins != 0; begins &= begins - 1)
-      begin_stretch(x + std::countr_zero(begins), y);
+void RunFinder::take_columns(int y, const std::uint32_t* words, int count) {
+  constexpr int kBlock = 4;  // words, compared at once
+  for (int block = 0; block < count; block += kBlock) {
+    const std::uint32_t* const now = words + block;
+    const int n = std::min(kBlock, count - block);
+    if (n == kBlock && std::memcmp(now, now - count, kBlock * sizeof(*now)) == 0) continue;
+    for (int w = 0; w < n; ++w)
+      if (now[w] != now[w - count]) turn(y, (block + w) * kMaskGroup, now[w - count], now[w]);
   }
 }
 
-void RunFinder::begin_stretch(int x, int y) {
-  std::int16_t& first = open_first_[static_cast<std::size_t>(x)];
-  const std::int16_t last = open_last_[static_cast<std::size_t>(x)];
-  if (y - last <= gap_ + 1) return;
-  if (last != kNone) close(x, {first, last});
-  first = static_cast<std::int16_t>(y);
+/// Whole vectors of columns: the marks are too ragged for branches on each.
+void RunFinder::turn(int y, int x, std::uint32_t before, std::uint32_t now) {
+  const auto row = static_cast<std::int16_t>(y), above = static_cast<std::int16_t>(y - 1),
+             recent = static_cast<std::int16_t>(y - gap_ - 1);
+  const std::uint32_t ends = before & ~now, begins = now & ~before;
+  for (int part = 0; part < kMaskGroup; part += kLanes, x += kLanes) {
+    if (((ends | begins) >> part & 0xFF) == 0) continue;
+    const Columns first = load(open_first_.data() + x), last = load(open_last_.data() + x);
+    const Columns ended = chosen(ends >> part);
+    store(open_last_.data() + x, (ended & above) | (~ended & last));
+    const Columns fresh = chosen(begins >> part) & (last < recent), closing = fresh & (last != kNone);
+    store(open_first_.data() + x, (fresh & row) | (~fresh & first));
+    for (int i = 0; any(closing) && i < kLanes; ++i)
+      if (closing[i] != 0) close(x + i, {first[i], last[i]});
+  }
 }
 
 void RunFinder::close_columns(int height) {
-  for (std::size_t w = 0; w < words_before_.size(); ++w)
-    for (std::uint32_t open = words_before_[w]; open != 0; open &= open - 1)
+  const std::size_t words = words_.size() / static_cast<std::size_t>(height + 1);
+  const std::uint32_t* const last = words_.data() + words * static_cast<std::size_t>(height);
+  for (std::size_t w = 0; w < words; ++w)
+    for (std::uint32_t open = last[w]; open != 0; open &= open - 1)
       open_last_[w * kMaskGroup + static_cast<std::size_t>(std::countr_zero(open))] =
           static_cast<std::int16_t>(height - 1);
   for (std::size_t x = 0; x < open_last_.size(); ++x)
     if (open_last_[x] != kNone) close(static_cast<int>(x), {open_first_[x], open_last_[x]});
 }
 
-void RunFinder::take_row(int y, int words) {
+void RunFinder::take_row(int y, const std::uint32_t* words, int count) {
   Run run{-1, -1};
-  for (int w = 0; w < words; ++w) {
-    std::uint32_t bits = words_[static_cast<std::size_t>(w)];
+  for (int w = 0; w < count; ++w) {
+    std::uint32_t bits = words[w];
     while (bits != 0) {
       const int start = std::countr_zero(bits);
       const int length = std::countr_one(bits >> start);

@@ -17,15 +17,14 @@ struct Run {
   int length() const { return last - first + 1; }
 };
 
-/// Runs of every profile of one picture, in ascending order. Reads the picture once, row by row, whatever the
-/// axis.
+/// Runs of every profile of one picture, in ascending order. Reads the picture once, whatever the axis.
 class RunFinder {
  public:
   /// More are dropped (the shortest first) and counted: a picture with that many has no clear line there.
   static constexpr int kMostRuns = 8;
 
   /// `want_ambient`: fill ambient() too.
-  void find(const PictureView& picture, const MaskRule& rule, int merge_gap, RowMarker marker,
+  void find(const PictureView& picture, const MaskRule& rule, int merge_gap, Marker marker,
             bool want_ambient);
 
   std::span<Run> runs(int profile) {
@@ -40,22 +39,21 @@ class RunFinder {
   const std::array<float, 3>& ambient() const { return ambient_; }
 
  private:
-  void take_columns(int y, int words);
-  void begin_stretch(int x, int y);
+  void take_columns(int y, const std::uint32_t* words, int count);
+  /// Marks of the 32 columns from x on changed from row y - 1 to row y.
+  void turn(int y, int x, std::uint32_t before, std::uint32_t now);
   void close_columns(int height);
-  void take_row(int y, int words);
+  void take_row(int y, const std::uint32_t* words, int count);
   void close(int profile, Run run);
-  void sample_ambient(const PictureView& picture, int y);
+  void sample_ambient(const PictureView& picture);
 
   int gap_ = 0;
   std::uint32_t dropped_ = 0;
   std::array<std::uint64_t, 3> ambient_sum_{};
   std::uint64_t ambient_count_ = 0;
   std::array<float, 3> ambient_{};
-  std::vector<std::uint32_t> words_;
-  // Columns: marks of the row before, and per column the run that may still grow (last: kNone before the
-  // first).
-  std::vector<std::uint32_t> words_before_;
+  std::vector<std::uint32_t> words_;  ///< marks of all rows, and before them a row without any
+  // Columns: the run that may still grow (last: kNone before the first).
   std::vector<std::int16_t> open_first_, open_last_;
   std::vector<Run> runs_;
   std::vector<int> count_;

@@ -28,11 +28,10 @@ struct Picture {
   PictureView view;
 };
 
-std::vector<std::uint32_t> marks(RowMarker marker, const PictureView& view, const MaskRule& rule) {
+std::vector<std::uint32_t> marks(Marker marker, const PictureView& view, const MaskRule& rule) {
   const auto words = static_cast<std::size_t>(mask_words(view.width));
   std::vector<std::uint32_t> all(words * static_cast<std::size_t>(view.height), 0xDEADBEEF);
-  for (int y = 0; y < view.height; ++y)
-    marker(view, rule, y, all.data() + words * static_cast<std::size_t>(y));
+  marker(view, rule, all.data());
   return all;
 }
 
@@ -47,7 +46,7 @@ TEST(LineMask, ColourTestIsTheDefinition) {
     rule.on = on;
     rule.ridge_threshold = 256;
     rule.colour_threshold = 20;
-    const auto all = marks(&mark_row, p.view, rule);
+    const auto all = marks(&mark_picture, p.view, rule);
     for (int y = 0; y < p.view.height; ++y) {
       for (int x = 0; x < p.view.width; ++x) {
         const std::uint8_t* v = p.view.data + p.view.stride * y + 3 * x;
@@ -74,7 +73,7 @@ TEST(LineMask, RidgeTestAsksBothSidesThatLieInThePicture) {
   rule.colour_threshold = 256;
   rule.ridge_threshold = 20;
   rule.reach = 10;
-  const auto all = marks(&mark_row, p.view, rule);
+  const auto all = marks(&mark_picture, p.view, rule);
   EXPECT_TRUE(bit(all, p.view, 10, 30));
   EXPECT_FALSE(bit(all, p.view, 11, 30));
   EXPECT_TRUE(bit(all, p.view, 11, 40) == false);
@@ -82,10 +81,10 @@ TEST(LineMask, RidgeTestAsksBothSidesThatLieInThePicture) {
   EXPECT_TRUE(bit(all, p.view, 13, 57));
   EXPECT_FALSE(bit(all, p.view, 30, 30));
   rule.ridge_threshold = 21;
-  EXPECT_FALSE(bit(marks(&mark_row, p.view, rule), p.view, 10, 30));
+  EXPECT_FALSE(bit(marks(&mark_picture, p.view, rule), p.view, 10, 30));
 }
 
-using Maker = RowMarker (*)(const MaskRule&);
+using Maker = Marker (*)(const MaskRule&);
 
 class VectorMask : public ::testing::TestWithParam<Maker> {};
 
@@ -101,10 +100,10 @@ TEST_P(VectorMask, MarksTheSamePixelsAsThePlainLoop) {
           rule.axis = axis;
           rule.ridge_threshold = ridge;
           rule.reach = width % 2 == 0 ? 24 : 7;
-          const RowMarker marker = GetParam()(rule);
+          const Marker marker = GetParam()(rule);
           if (marker == nullptr) GTEST_SKIP() << "this processor has no such vectors";
           const Picture p(width, 40, width % 3 == 0 ? 0 : 13, ++seed);
-          ASSERT_EQ(marks(marker, p.view, rule), marks(&mark_row, p.view, rule))
+          ASSERT_EQ(marks(marker, p.view, rule), marks(&mark_picture, p.view, rule))
               << "colour " << on << ", width " << width << ", axis " << static_cast<int>(axis) << ", ridge "
               << ridge;
         }
@@ -114,7 +113,7 @@ TEST_P(VectorMask, MarksTheSamePixelsAsThePlainLoop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, VectorMask,
-                         ::testing::Values(&mask_detail::avx2_row_marker, &mask_detail::avx512_row_marker),
+                         ::testing::Values(&mask_detail::avx2_marker, &mask_detail::avx512_marker),
                          [](const auto& i) { return i.index == 0 ? "Avx2" : "Avx512"; });
 
 TEST(LineMask, MonoIsFoundByRidgesUnlessTheMeanIsAskedFor) {

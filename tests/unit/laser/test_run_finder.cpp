@@ -49,7 +49,7 @@ TEST(RunFinder, FindsWhatALoopOverEachProfileFinds) {
   for (const ProfileAxis axis : {ProfileAxis::column, ProfileAxis::row}) {
     for (const int gap : {0, 3}) {
       RunFinder finder;
-      finder.find(view_of(picture), green_only(axis), gap, &mark_row, true);
+      finder.find(view_of(picture), green_only(axis), gap, &mark_picture, true);
       for (int p = 0; p < profile_count(view_of(picture), axis); ++p) {
         const auto expected = by_hand(picture, axis, p, gap);
         const auto found = finder.runs(p);
@@ -69,7 +69,7 @@ TEST(RunFinder, KeepsTheLongestOfTooMany) {
   for (int i = 0; i < 12; ++i)  // lengths 1 .. 12, one after the other
     for (int k = 0; k <= i; ++k) picture.at<cv::Vec3b>(15 * i + k, 5)[1] = 200;
   RunFinder finder;
-  finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_row, true);
+  finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_picture, true);
   const auto found = finder.runs(5);
   ASSERT_EQ(found.size(), static_cast<std::size_t>(RunFinder::kMostRuns));
   EXPECT_EQ(finder.dropped(), 4U);
@@ -80,7 +80,7 @@ TEST(RunFinder, AmbientIsTheSceneWithoutTheLine) {
   cv::Mat picture(64, 64, CV_8UC3, cv::Scalar(10, 20, 30));
   picture.rowRange(8, 24).setTo(cv::Scalar(0, 255, 0));
   RunFinder finder;
-  finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_row, true);
+  finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_picture, true);
   EXPECT_FLOAT_EQ(finder.ambient()[0], 10);
   EXPECT_FLOAT_EQ(finder.ambient()[1], 20);
   EXPECT_FLOAT_EQ(finder.ambient()[2], 30);
