@@ -22,9 +22,6 @@ struct Candidate {
   LightMix mix{};        ///< the light it was found in
   LightMix calm_mix{};   ///< LightWindow::calm_mix
   float structure = 0;   ///< LightWindow::structure
-  int light_at = 0;      ///< where CandidateList::light keeps the window it was found in
-  int light_begin = 0;   ///< pixel of the profile at the window's first element
-  int light_size = 0;    ///< px; 0: nothing is kept
   bool clipped = false;  ///< the laser's channel is flat on top
   bool good = true;
   NoPoint fault = NoPoint::no_light;  ///< why not, unless good
@@ -56,12 +53,10 @@ struct Candidate {
 struct CandidateList {
   std::vector<Candidate> all;
   std::vector<int> first;
-  std::vector<std::int16_t> light;  ///< the light of all windows, one after the other
 
   void begin(int profiles) {
     all.clear();
     first.clear();
-    light.clear();
     first.reserve(static_cast<std::size_t>(profiles) + 1);
   }
   Candidate* begin_of(int profile) { return all.data() + first[static_cast<std::size_t>(profile)]; }

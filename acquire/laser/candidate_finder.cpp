@@ -85,7 +85,6 @@ bool CandidateFinder::follow(const Profile& profile, int index, Run run, Candida
   c.profile = index;
   c.centre = static_cast<float>(run.first) + static_cast<float>(moment) / static_cast<float>(sum);
   c.peak = static_cast<float>(top - n.background);
-  c.light_size = 0;
   n = {index, run, static_cast<int>(out.all.size()) - 1, n.background, n.followers + 1};
   return true;
 }
@@ -104,13 +103,10 @@ void CandidateFinder::close_look(Run run, CandidateList& out) {
   };
   const std::optional<Hump> before = rest(from, main.first - options_.merge_gap);
   const std::optional<Hump> after = rest(main.last + 1 + options_.merge_gap, to);
-  const int light_at = static_cast<int>(out.light.size()), first = static_cast<int>(out.all.size());
-  out.light.insert(out.light.end(), window_.light().begin(), window_.light().end());
+  const int first = static_cast<int>(out.all.size());
   if (before) out.all.push_back(candidate_from(*before));
   out.all.push_back(candidate_from(main));
   if (after) out.all.push_back(candidate_from(*after));
-  for (std::size_t i = static_cast<std::size_t>(first); i < out.all.size(); ++i)
-    out.all[i].light_at = light_at;
   const Candidate& c = out.all.back();
   const bool plain = !before && !after && c.good && !c.clipped && c.mix == LightMix{};
   neighbour_ = {plain ? index_ : -1, run, first, window_.background(), 0};
@@ -124,8 +120,6 @@ Candidate CandidateFinder::candidate_from(const Hump& h) const {
   c.mix = window_.mix();
   c.calm_mix = window_.calm_mix();
   c.structure = window_.structure();
-  c.light_begin = window_.begin();
-  c.light_size = window_.size();
   c.clipped = window_.clipped();
   int peak = 0, saturated = 0;
   for (int i = h.first; i <= h.last; ++i) {

@@ -1,10 +1,9 @@
 // The middle of a line profile by a matched Gaussian: the maximum-likelihood place for a Gaussian line in
-// white noise.
+// white noise. Four profiles at a time.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "acquire/laser/light_window.hpp"
@@ -17,64 +16,59 @@ struct GaussFit {
   bool settled = false;  ///< false: it wandered off, or there is no light; centre is then the start
 };
 
-/// Light that somebody has gathered already: values from pixel `begin` of the profile on. May be empty.
-struct StoredLight {
-  std::span<const std::int16_t> values;
-  int begin = 0;
-};
-
-/// Tables are built once; fit() allocates nothing after the longest window was seen. One thread per object.
+/// Tables are built once; nothing is allocated after the most profiles and the widest line were seen. The
+/// place found in a profile does not depend on the others. One thread per object.
 class GaussCentre {
  public:
   GaussCentre();
 
-  /// `start`: within about a sigma of the middle. `sigma`: of the line, px. `noise`: grey levels; decides
-  /// whether a slope of the background is real. `mix`: the light to look at; `stored` holds it where it is at
-  /// hand, the rest is read from the profile.
-  GaussFit fit(const Profile& profile, float start, float sigma, float noise, const LightMix& mix,
-               const StoredLight& stored);
+  /// Starts a picture. `noise`: grey levels; decides whether a slope of the background is real.
+  void begin(float noise);
+
+  /// `start`: within about a sigma of the middle. `sigma`: of the line, px. `mix`: the light to look at.
+  void add(const Profile& profile, float start, float sigma, const LightMix& mix);
+
+  /// Of all profiles, in the order in which they were added.
+  const std::vector<GaussFit>& fits();
 
  private:
-  static constexpr int kPhases = 16;
+  static constexpr std::size_t kLanes = 4;
+  using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
   struct Kernel {
     float sigma = 1;
-    int radius = 0;             ///< taps reach from -radius to +radius
-    std::size_t taps = 0;       ///< rounded up for vectors; those beyond the radius weigh nothing
-    std::vector<float> weight;  ///< [phase][tap]
-    std::vector<float> moment;  ///< weight times distance from the centre
-    struct Totals {
-      float weight = 0, moment = 0, spread = 0;  ///< sums of w, w t, w t^2
-      float power = 0;                           ///< sum of w^2
-    };
-    std::array<Totals, kPhases> totals{};
+    int half = 0;  ///< the window reaches from -half to +half
+    int flank_begin = 0,
+        flank_end = 0;          ///< distances from the middle that count as background, both included
+    std::vector<float> weight;  ///< of the pixels 0 .. half from the middle
   };
-  /// Where the window lies: `count` bins of `bin` pixels from pixel `first`, the background from bin `begin`
-  /// to `end` away.
+  /// Where a profile's window lies: bins of `bin` pixels, the first from pixel `first` on.
   struct Frame {
-    int first = 0, bin = 1, count = 0, begin = 0, end = 0;
-    float index_of(float px) const {
-      return (px - static_cast<float>(first)) / static_cast<float>(bin) - half_bin();
-    }
-    float px_of(float index) const {
-      return static_cast<float>(first) + (index + half_bin()) * static_cast<float>(bin);
-    }
-    float half_bin() const { return 0.5F * static_cast<float>(bin - 1) / static_cast<float>(bin); }
+    int first = 0, bin = 1, half = 0;
+    float index_of(float px) const;  ///< in bins from the middle one
+    float px_of(float index) const;
+  };
+  struct Light {
+    Lanes weight{}, moment{};  ///< under the Gaussian, and times the distance from the window's middle
+    Lanes power{};             ///< of the Gaussian, as if its weight were 1 at the window's middle
   };
   const Kernel& kernel_for(float sigma) const;
-  Frame frame_for(const Kernel& kernel, float start, int bin) const;
-  void gather(const Profile& profile, const Frame& frame, const LightMix& mix);
-  bool take(const StoredLight& stored, const Frame& frame);
-  void add_channel(const Profile& profile, const Frame& frame, std::size_t channel, float share);
-  /// Level at index 0 and rise per bin.
-  struct Background {
-    float level = 0, slope = 0;
-  };
-  Background background(const Frame& frame, float middle, float noise) const;
-  GaussFit climb(const Kernel& kernel, const Frame& frame, const Background& background, float start) const;
+  void gather(const Profile& profile, const Frame& frame, std::size_t channel, float share);
+  void take_background_out();
+  Light below(Lanes place) const;
+  void climb();
 
   std::vector<Kernel> kernels_;
   std::vector<std::uint8_t> index_;  ///< of the kernel, by sigma in steps of kStep
-  std::vector<float> window_;
+  float noise_ = 0;
+
+  // The profiles that wait, all of one kernel.
+  const Kernel* kernel_ = nullptr;
+  std::size_t waiting_ = 0;
+  std::array<Frame, kLanes> frames_{};
+  Lanes start_{};
+  std::vector<Lanes> window_;
+  std::vector<GaussFit> fits_;
 };
 
 }  // namespace linescope

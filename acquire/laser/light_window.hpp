@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "acquire/laser/picture_view.hpp"
@@ -38,7 +37,6 @@ class LightWindow {
   int lead(int i) const { return lead_[static_cast<std::size_t>(i)]; }     ///< the laser's channel
   int light(int i) const { return light_[static_cast<std::size_t>(i)]; }   ///< the mix
   int value(int c, int i) const { return profile_.value(c, begin_ + i); }  ///< any channel
-  std::span<const std::int16_t> light() const { return {light_.data(), static_cast<std::size_t>(size_)}; }
   int background() const { return background_; }  ///< of the light: the brighter flank
   bool clipped() const { return clipped_; }
   const LightMix& mix() const { return mix_; }

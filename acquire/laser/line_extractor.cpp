@@ -36,7 +36,6 @@ struct LineExtractor::Work {
 
   void start(const cv::Mat& m);
   void find_candidates(const PictureView& picture);
-  GaussFit fit_line(const Profile& profile, const Choice& chosen);
   void measure(const PictureView& picture);
   void add_sample(const Choice& choice, float centre, float peak);
   void finish();
@@ -88,27 +87,25 @@ void LineExtractor::Work::find_candidates(const PictureView& picture) {
   candidates.first.push_back(static_cast<int>(candidates.all.size()));
 }
 
-GaussFit LineExtractor::Work::fit_line(const Profile& profile, const Choice& chosen) {
-  const Candidate& c = *chosen.first;
-  const bool calm = c.structure > kMoreThanNoise * line.noise && c.mix != c.calm_mix;
-  if (calm) return gauss.fit(profile, c.centre, chosen.sigma, line.noise, c.calm_mix, {});
-  const StoredLight stored{{candidates.light.data() + c.light_at, static_cast<std::size_t>(c.light_size)},
-                           c.light_begin};
-  return gauss.fit(profile, c.centre, chosen.sigma, line.noise, c.mix, stored);
-}
-
 void LineExtractor::Work::measure(const PictureView& picture) {
+  if (options.centre == CentreMethod::weighted_mean) {
+    for (const Choice& c : choice.chosen()) add_sample(c, c.first->centre, c.first->peak);
+    return;
+  }
   const int lead = leading_channel(options.colour);
+  gauss.begin(line.noise);
+  for (const Choice& chosen : choice.chosen()) {
+    const Candidate& c = *chosen.first;
+    const bool calm = c.structure > kMoreThanNoise * line.noise;
+    gauss.add(profile_of(picture, options.axis, lead, c.profile), c.centre, chosen.sigma,
+              calm ? c.calm_mix : c.mix);
+  }
+  const GaussFit* fit = gauss.fits().data();
   for (const Choice& c : choice.chosen()) {
-    float centre = c.first->centre, peak = c.first->peak;
-    if (options.centre == CentreMethod::gauss_weighted) {
-      const GaussFit fit = fit_line(profile_of(picture, options.axis, lead, c.first->profile), c);
-      if (fit.settled) {
-        centre = fit.centre;
-        if (!c.first->clipped) peak = std::clamp(fit.amplitude, 0.0F, 255.0F);
-      }
-    }
-    add_sample(c, centre, peak);
+    const float peak =
+        fit->settled && !c.first->clipped ? std::clamp(fit->amplitude, 0.0F, 255.0F) : c.first->peak;
+    add_sample(c, fit->centre, peak);
+    ++fit;
   }
 }
 
