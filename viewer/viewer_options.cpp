@@ -39,7 +39,8 @@ void declare_data(CLI::App& app, ViewerOptions& o) {
       ->capture_default_str();
   choice(app, "--hold-in", o.feed.held_in, kHeld,
          "Frame the surface is held in: the object's sensor, or the tracker's");
-  choice(app, "--mesher", o.mesher.method, kMethods, "How the surface is made; default pmc");
+  choice(app, "--mesher", o.mesher.method, kMethods,
+         "How the surface is made; default implicit, the one-sided surface; pmc is the thesis's");
   app.add_option("--interval", o.mesher.interval, "Cubic interval t, mm")
       ->type_name("MM")
       ->capture_default_str();

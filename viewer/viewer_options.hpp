@@ -13,7 +13,7 @@ namespace linescope {
 
 struct ViewerOptions {
   FeedOptions feed;
-  MesherOptions mesher{.method = MeshMethod::proposed_cubes};
+  MesherOptions mesher;
   NormalChoice normal = NormalChoice::robust;
   int width = 1280, height = 720;
   double font_scale = 1;

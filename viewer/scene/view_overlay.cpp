@@ -6,17 +6,20 @@
 #include <vtkMatrix4x4.h>
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
+#include <vtkRenderWindow.h>
 #include <vtkTextProperty.h>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "viewer/scene/palette.hpp"
 
 namespace linescope {
 namespace {
 
-// Pixels at 96 dpi.
+constexpr double kUsualDpi = 72;  // VTK's word for one pixel per pixel
+// Pixels there.
 constexpr double kMargin = 14, kAxisLength = 30, kTick = 5;
 constexpr double kBarShare = 0.25;  ///< of the view's width, at most
 constexpr Rgb kAxisColours[3] = {palette::of(0xd55e00), palette::of(0x2fc79b), palette::of(0x56b4e9)};
@@ -95,24 +98,28 @@ void ViewOverlay::set_scale(double scale) {
   style(*title_, 14 * scale, palette::kText);
   style(*note_, 12 * scale, palette::kQuiet);
   style(*bar_text_, 12 * scale, palette::kText);
-  for (std::size_t i = 0; i < 3; ++i) {
-    style(*axis_names_[i], 13 * scale, kAxisColours[i]);
-    axes_[i].actor->GetProperty()->SetLineWidth(static_cast<float>(2 * scale));
-  }
-  bar_.actor->GetProperty()->SetLineWidth(static_cast<float>(1.5 * scale));
+  for (std::size_t i = 0; i < 3; ++i) style(*axis_names_[i], 13 * scale, kAxisColours[i]);
 }
 
+void ViewOverlay::set_line_widths() {
+  for (Line& axis : axes_) axis.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * pixels_));
+  bar_.actor->GetProperty()->SetLineWidth(static_cast<float>(1.5 * pixels_));
+}
+
+/// VTK itself makes text larger on a screen of many pixels per inch; places and lengths are ours to follow.
 void ViewOverlay::update() {
+  const double pixels = scale_ * renderer_.GetRenderWindow()->GetDPI() / kUsualDpi;
+  if (std::exchange(pixels_, pixels) != pixels) set_line_widths();
   const double height = renderer_.GetSize()[1];
-  place(*title_, kMargin * scale_, height - 10 * scale_);
-  place(*note_, kMargin * scale_, height - 30 * scale_);
+  place(*title_, kMargin * pixels_, height - 10 * pixels_);
+  place(*note_, kMargin * pixels_, height - 30 * pixels_);
   update_axes();
   update_bar();
 }
 
 void ViewOverlay::update_axes() {
   vtkMatrix4x4& view = *renderer_.GetActiveCamera()->GetViewTransformMatrix();
-  const double length = kAxisLength * scale_, middle = (kMargin + 14) * scale_ + length;
+  const double length = kAxisLength * pixels_, middle = (kMargin + 14) * pixels_ + length;
   for (std::size_t i = 0; i < 3; ++i) {
     const int column = static_cast<int>(i);
     const double x = view.GetElement(0, column), y = view.GetElement(1, column);
@@ -120,7 +127,7 @@ void ViewOverlay::update_axes() {
     axes_[i].points->SetPoint(1, middle + length * x, middle + length * y, 0);
     axes_[i].points->Modified();
     // An axis that points at the eye has its name beside the origin instead of on it.
-    const double reach = length + 10 * scale_, shown = std::hypot(x, y);
+    const double reach = length + 10 * pixels_, shown = std::hypot(x, y);
     const double nx = shown < 0.25 ? -0.35 : x, ny = shown < 0.25 ? -0.35 : y;
     place(*axis_names_[i], middle + reach * nx, middle + reach * ny);
   }
@@ -130,15 +137,15 @@ void ViewOverlay::update_bar() {
   const double per_pixel = millimetres_per_pixel(renderer_);
   const double width = renderer_.GetSize()[0];
   bar_mm_ = round_length(std::max(width * kBarShare * per_pixel, 1e-6));
-  const double right = width - kMargin * scale_, left = right - bar_mm_ / per_pixel;
-  const double low = kMargin * scale_, tick = kTick * scale_;
+  const double right = width - kMargin * pixels_, left = right - bar_mm_ / per_pixel;
+  const double low = kMargin * pixels_, tick = kTick * pixels_;
   bar_.points->SetPoint(0, left, low + tick, 0);
   bar_.points->SetPoint(1, left, low, 0);
   bar_.points->SetPoint(2, right, low, 0);
   bar_.points->SetPoint(3, right, low + tick, 0);
   bar_.points->Modified();
   bar_text_->SetInput(fmt::format("{:g} mm", bar_mm_).c_str());
-  place(*bar_text_, right, low + tick + 3 * scale_);
+  place(*bar_text_, right, low + tick + 3 * pixels_);
 }
 
 }  // namespace linescope

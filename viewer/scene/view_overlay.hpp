@@ -20,7 +20,7 @@ class ViewOverlay {
   void set_title(const std::string& title);
   /// Small text below the title, for example how many points are drawn.
   void set_note(const std::string& note);
-  /// Sizes of text and markers relative to a 96 dpi screen.
+  /// Sizes of text and markers relative to the usual; the screen's own pixel ratio comes on top.
   void set_scale(double scale);
 
   /// Before every picture: follows the camera.
@@ -30,6 +30,7 @@ class ViewOverlay {
   double bar_mm() const { return bar_mm_; }
 
  private:
+  void set_line_widths();
   void update_axes();
   void update_bar();
 
@@ -46,6 +47,7 @@ class ViewOverlay {
   std::array<Line, 3> axes_;
   Line bar_;
   double bar_mm_ = 0, scale_ = 1;
+  double pixels_ = 0;  ///< of the screen for one of a usual screen and scale 1
 };
 
 /// The largest of 1, 2, 5 times a power of ten that is not longer than `longest`.

@@ -15,11 +15,11 @@ auto read(std::vector<const char*> words) {
   return read_viewer_options(static_cast<int>(words.size()), words.data());
 }
 
-TEST(ViewerOptions, DefaultsAreTheThesis) {
+TEST(ViewerOptions, DefaultsAreTheOneSidedSurfaceAndTheThesissInterval) {
   const auto read_back = read({});
   ASSERT_TRUE(read_back);
   const auto& o = std::get<ViewerOptions>(*read_back);
-  EXPECT_EQ(o.mesher.method, MeshMethod::proposed_cubes);
+  EXPECT_EQ(o.mesher.method, MeshMethod::implicit);
   EXPECT_DOUBLE_EQ(o.mesher.interval, 1.27);
   EXPECT_EQ(o.feed.held_in, HeldIn::object);
   EXPECT_EQ(o.feed.segment, "linescope");
