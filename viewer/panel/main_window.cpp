@@ -35,8 +35,7 @@ MainWindow::MainWindow(WindowHooks hooks, const MesherOptions& mesher, NormalCho
   setStyleSheet(style_sheet(panel_scale()));
   build();
   add_keys();
-  set_moment(Moment::scan);
-  set_shown(Shown::points);
+  enter(Moment::scan);
   resize(1280, 720);
 }
 
@@ -144,6 +143,13 @@ void MainWindow::set_moment(Moment moment) {
   angle_->setVisible(moment != Moment::surface);  // there the room belongs to figures of the surface
   top_->show_moment(moment);
   scene().request_picture();
+}
+
+/// A scan shows its points and, below them, the surface as it grows.
+void MainWindow::enter(Moment moment) {
+  set_moment(moment);
+  set_shown(moment == Moment::scan ? Shown::points : Shown::surface);
+  if (moment == Moment::scan) scene().surface().show(SurfaceStyle::surface);
 }
 
 void MainWindow::set_shown(Shown shown) {

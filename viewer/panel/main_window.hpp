@@ -107,6 +107,8 @@ class MainWindow : public QMainWindow {
 
   void scan_or_stop();
   void clear();
+  /// The moment with what it shows at first; keys then change what is shown.
+  void enter(Moment moment);
   void set_shown(Shown shown);
   void move_view(OperatorAction action);
   void clicked(int x, int y);

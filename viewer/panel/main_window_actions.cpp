@@ -24,14 +24,11 @@ void MainWindow::act(OperatorAction action) {
     case OperatorAction::undo_sweep:
       return hooks_.command(CommandKind::undo_sweep);
     case OperatorAction::show_scan:
-      set_moment(Moment::scan);
-      return set_shown(Shown::points);
+      return enter(Moment::scan);
     case OperatorAction::surface:
-      set_moment(Moment::surface);
-      return set_shown(Shown::surface);
+      return enter(Moment::surface);
     case OperatorAction::navigate:
-      set_moment(Moment::navigate);
-      return set_shown(Shown::surface);
+      return enter(Moment::navigate);
     default:
       break;
   }
@@ -50,8 +47,7 @@ void MainWindow::scan_or_stop() {
   const bool scanning = state_.live->scan.scanning;
   hooks_.command(scanning ? CommandKind::stop : CommandKind::start);
   if (scanning) return;
-  set_moment(Moment::scan);
-  set_shown(Shown::points);
+  enter(Moment::scan);
 }
 
 void MainWindow::clear() {

@@ -149,8 +149,7 @@ std::vector<std::string> MainWindow::save_moments(const QString& folder) {
   const Shown shown_was = surface_page_->shown();
   std::vector<std::string> files;
   for (const Moment moment : {Moment::scan, Moment::surface, Moment::navigate}) {
-    set_moment(moment);
-    set_shown(moment == Moment::scan ? Shown::points : Shown::surface);
+    enter(moment);
     show_texts(state_, shown_angle_, monotonic_now());
     const QString file = QString("%1/%2.png").arg(folder, name(moment));
     if (save_picture(file)) files.push_back(file.toStdString());
