@@ -11,8 +11,9 @@ namespace {
 
 constexpr int kNoiseEvery = 8;   // profiles, of the weighted mean: it reads no surroundings otherwise
 constexpr int kNoisePixels = 5;  // at each end of a window, as far from the line as it reaches
-constexpr int kFollowers = 3;    // profiles in a row that rely on a neighbour
+constexpr int kFollowers = 7;    // profiles in a row that rely on a neighbour
 constexpr int kSame = 2;         // px by which the ends of a run may differ from those of a neighbour
+constexpr int kSpeck = 3;        // px; what is not longer is no rival of a line
 constexpr int kLongest = 24;     // px; a longer run is more than a plain line
 
 /// A saturated core has no colour: the marks beside it belong together when what lies between is at least as
@@ -50,12 +51,14 @@ void CandidateFinder::find(const Profile& profile, int index, std::span<Run> run
   index_ = index;
   const std::size_t n =
       runs.size() > 1 ? merge_across_cores(profile, runs, options_.max_saturated) : runs.size();
-  const bool alone = n == 1;
+  const auto broad = [](const Run& run) { return run.length() > kSpeck; };
+  const auto rivals = std::count_if(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(n), broad);
+  next_ = {};
   for (const Run run : runs.first(n)) {
     if (options_.centre == CentreMethod::weighted_mean) {
       fill_mean_candidate(profile, index, run, excess_, options_, out.all.emplace_back());
       if (index % kNoiseEvery == 0) noise.add(profile, run.last + 3, run.last + 10);
-    } else if (!alone || !follow(profile, index, run, out)) {
+    } else if (!(n == 1 || (rivals == 1 && broad(run))) || !follow(profile, index, run, out)) {
       window_.read(profile, run);
       close_look(run, out);
       noise.add(profile, window_.begin(), window_.begin() + kNoisePixels - 1);
@@ -63,29 +66,35 @@ void CandidateFinder::find(const Profile& profile, int index, std::span<Run> run
                 window_.begin() + window_.size() - 1);
     }
   }
+  neighbour_ = next_;
 }
 
 bool CandidateFinder::follow(const Profile& profile, int index, Run run, CandidateList& out) {
-  Neighbour& n = neighbour_;
+  const Neighbour& n = neighbour_;
   if (n.profile != index - 1 || n.followers >= kFollowers) return false;
   if (std::abs(run.first - n.run.first) > kSame || std::abs(run.last - n.run.last) > kSame ||
-      run.length() > kLongest)
+      run.length() > kLongest || std::min<int>(run.first, length_ - 1 - run.last) < run.length())
     return false;
-  int top = 0, sum = 0, moment = 0;
+  int top = 0, at = 0, sum = 0, moment = 0;
   const std::uint8_t* p = profile.at[0] + run.first * profile.step;
   for (int i = 0; i < run.length(); ++i, p += profile.step) {
     const int light = std::max(0, *p - n.background);
+    at = *p > top ? i : at;
     top = std::max<int>(top, *p);
     sum += light;
     moment += light * i;
   }
   if (top >= options_.saturation_level || sum == 0) return false;
+  at += run.first;
+  const bool coloured =
+      excess_.of(top, profile.value(1, at), profile.value(2, at)) >= options_.colour_threshold;
+  if (!coloured && !excess_.colourless()) return false;
   Candidate& c = out.all.emplace_back();
   c = out.all[static_cast<std::size_t>(n.candidate)];
   c.profile = index;
   c.centre = static_cast<float>(run.first) + static_cast<float>(moment) / static_cast<float>(sum);
   c.peak = static_cast<float>(top - n.background);
-  n = {index, run, static_cast<int>(out.all.size()) - 1, n.background, n.followers + 1};
+  next_ = {index, run, static_cast<int>(out.all.size()) - 1, n.background, n.followers + 1};
   return true;
 }
 
@@ -109,7 +118,7 @@ void CandidateFinder::close_look(Run run, CandidateList& out) {
   if (after) out.all.push_back(candidate_from(*after));
   const Candidate& c = out.all.back();
   const bool plain = !before && !after && c.good && !c.clipped && c.mix == LightMix{};
-  neighbour_ = {plain ? index_ : -1, run, first, window_.background(), 0};
+  if (plain && next_.profile < 0) next_ = {index_, run, first, window_.background(), 0};
 }
 
 Candidate CandidateFinder::candidate_from(const Hump& h) const {
