@@ -27,6 +27,7 @@ Result<void> validate(const Calibration& c) {
                     "millimetres, not metres",
                     c.laser.offset));
   }
+  if (auto bend = validate(c.laser_bend, c.laser); !bend) return bend;
   if (!c.endoscope_from_camera.finite() || c.endoscope_from_camera.translation().norm() > 5000) {
     return fail(ErrorCode::invalid,
                 "endoscope_from_camera is not finite or longer than 5 m: it must be in millimetres");

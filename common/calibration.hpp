@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/camera_model.hpp"
+#include "common/laser_bend.hpp"
 #include "common/laser_plane.hpp"
 #include "common/result.hpp"
 #include "common/rigid_transform.hpp"
@@ -25,6 +26,7 @@ struct Calibration {
   std::string name;  ///< for people, for example "camera II"
   CameraModel camera;
   LaserPlane laser;
+  LaserBend laser_bend;  ///< flat: the laser's surface is the plane
   Rigid<Endoscope, CameraCv> endoscope_from_camera;
   HarvesterCalibration harvester;
   Nanoseconds camera_latency =

@@ -35,6 +35,23 @@ Result<LaserPlane> read_laser(const cv::FileStorage& storage) {
   return laser_plane_from_baseline(b.real(), radians_from_degrees(alpha.real()));
 }
 
+Result<LaserBend> read_bend(const cv::FileStorage& storage) {
+  LaserBend bend;
+  auto found = yaml_matrix(storage, {"laser_bend"}, 1, 0);
+  if (!found) return tl::unexpected(found.error());
+  if (!*found) return bend;
+  const auto count = static_cast<std::size_t>((*found)->cols);
+  if (count != LaserBend::kQuadratic && count != LaserBend::kCubic) {
+    return fail(
+        ErrorCode::invalid,
+        fmt::format("laser_bend holds {} numbers, but must hold 3 (of x^2, xy, y^2) or 7 (and of x^3, "
+                    "x^2 y, x y^2, y^3)",
+                    count));
+  }
+  for (std::size_t i = 0; i < count; ++i) bend.b[i] = (*found)->at<double>(static_cast<int>(i));
+  return turned_over(bend);
+}
+
 Result<Rigid<Endoscope, CameraCv>> read_hand_eye(const cv::FileStorage& storage,
                                                  std::vector<std::string>& notes) {
   auto found = yaml_matrix(storage, {"endoscope_from_camera", "tool_from_camera"}, 4, 4);
@@ -82,6 +99,15 @@ cv::Mat row(const Eigen::VectorXd& v) {
   return m;
 }
 
+/// A plane has no such key.
+void write_bend(cv::FileStorage& out, const LaserBend& bend) {
+  if (bend.flat()) return;
+  out.writeComment("the plane's 1/z plus these times x^2 xy y^2 [x^3 x^2y xy^2 y^3], 1/mm");
+  const LaserBend turned = turned_over(bend);
+  out << "laser_bend"
+      << row(Eigen::Map<const Eigen::VectorXd>(turned.b.data(), static_cast<Eigen::Index>(bend.terms())));
+}
+
 void write_all(cv::FileStorage& out, const Calibration& c) {
   out << "name" << c.name;
   out << "image_width" << c.camera.width << "image_height" << c.camera.height;
@@ -91,6 +117,7 @@ void write_all(cv::FileStorage& out, const Calibration& c) {
   out << "distortion_coefficients" << row(Eigen::Map<const Eigen::VectorXd>(c.camera.distortion.data(), 5));
   out.writeComment("n.p + d = 0 in OpenCV's camera frame (y down), mm");
   out << "laser_plane" << row(opencv_from_laser_plane(c.laser));
+  write_bend(out, c.laser_bend);
   const Eigen::Matrix4d t = c.endoscope_from_camera.isometry().matrix();
   cv::Mat hand_eye(4, 4, CV_64F);
   for (int r = 0; r < 4; ++r)
@@ -109,6 +136,9 @@ Result<Calibration> read_all(const cv::FileStorage& storage) {
   auto laser = read_laser(storage);
   if (!laser) return tl::unexpected(laser.error());
   c.laser = *laser;
+  auto bend = read_bend(storage);
+  if (!bend) return tl::unexpected(bend.error());
+  c.laser_bend = *bend;
   auto hand_eye = read_hand_eye(storage, c.notes);
   if (!hand_eye) return tl::unexpected(hand_eye.error());
   c.endoscope_from_camera = *hand_eye;

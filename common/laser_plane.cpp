@@ -13,11 +13,10 @@ LaserPlane laser_plane_from_baseline(double baseline_mm, double alpha_rad) {
 }
 
 BaselineForm baseline_form(const LaserPlane& plane) {
-  BaselineForm form;
-  form.baseline_mm = plane.offset / plane.normal.y();
-  form.alpha_rad = std::atan2(plane.normal.z(), plane.normal.y());
-  form.tilt_rad = std::atan2(plane.normal.x(), plane.normal.y());
-  return form;
+  const bool beside = std::abs(plane.normal.x()) > std::abs(plane.normal.y());
+  const double across = beside ? plane.normal.x() : plane.normal.y();
+  const double along = beside ? plane.normal.y() : plane.normal.x();
+  return {plane.offset / across, std::atan(plane.normal.z() / across), std::atan(along / across)};
 }
 
 Result<LaserPlane> laser_plane_from_opencv(const Eigen::Vector4d& n_and_d) {

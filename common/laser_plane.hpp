@@ -28,8 +28,9 @@ struct LaserPlane {
 /// The special case of the thesis (Eq 4.3): y + z tan(alpha) = b. Baseline in mm, angle in radians.
 LaserPlane laser_plane_from_baseline(double baseline_mm, double alpha_rad);
 
-/// Baseline b and deviation alpha of Eq 4.3 as this plane shows them on the camera's y-z plane; `tilt` is the
-/// rest that Eq 4.3 cannot express (rotation about the optical axis, radians).
+/// Baseline b and deviation alpha of Eq 4.3 as this plane shows them on the camera's y-z plane, or on its x-z
+/// plane for a laser that stands beside the camera (b is negative to the left); `tilt` is the rest that
+/// Eq 4.3 cannot express (rotation about the optical axis, radians).
 struct BaselineForm {
   double baseline_mm = 0;
   double alpha_rad = 0;

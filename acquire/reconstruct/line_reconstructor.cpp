@@ -138,11 +138,12 @@ Eigen::Vector3f mean_direction(const ReconstructedLine& out, const Eigen::Vector
 
 struct LineReconstructor::Tables {
   Tables(const Calibration& c, const LineReconstructorOptions& o)
-      : calibration(c), options(o), rays(c.camera), surface(c.laser) {}
+      : calibration(c), options(o), rays(c.camera), plane(c.laser), bent(c.laser, c.laser_bend) {}
   Calibration calibration;
   LineReconstructorOptions options;
   RayTable rays;
-  PlaneSurface surface;
+  PlaneSurface plane;
+  BentSurface bent;
 };
 
 Result<void> validate(const LineReconstructorOptions& o) {
@@ -204,7 +205,10 @@ Result<void> LineReconstructor::reconstruct(const ExtractedLine& line,
   const LineReconstructorOptions& o = tables_->options;
   const Judge judge{static_cast<float>(o.min_depth_mm), static_cast<float>(o.max_depth_mm),
                     static_cast<float>(o.line_noise_px)};
-  place(line, tables_->rays, tables_->surface, judge, placement, out);
+  if (tables_->calibration.laser_bend.flat())
+    place(line, tables_->rays, tables_->plane, judge, placement, out);
+  else
+    place(line, tables_->rays, tables_->bent, judge, placement, out);
   out.camera_in_world = placement.translation;
   out.viewing_direction = mean_direction(out, placement.rotation.col(2));
   return {};

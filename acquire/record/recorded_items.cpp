@@ -112,6 +112,8 @@ void add_record(RecordWriter& writer, const Calibration& calibration) {
   out.put(calibration.camera_latency);
   out.put(static_cast<std::uint32_t>(calibration.notes.size()));
   for (const std::string& note : calibration.notes) out.text(note);
+  if (!calibration.laser_bend.flat())
+    for (const double term : calibration.laser_bend.b) out.put(term);
   writer.end();
 }
 
@@ -172,6 +174,8 @@ Result<Calibration> read_calibration(const Record& record) {
   calibration.camera_latency = in.get<Nanoseconds>();
   const auto notes = in.get<std::uint32_t>();
   for (std::uint32_t i = 0; i < notes && in.ok(); ++i) calibration.notes.push_back(in.text());
+  if (in.left() > 0)
+    for (double& term : calibration.laser_bend.b) term = in.get<double>();
   if (in.ok()) return calibration;
   return broken(record, "calibration");
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -85,6 +86,35 @@ TEST_F(CalibrationFile, TheThesissFormOfTheLaserIsUnderstood) {
   EXPECT_NEAR(form.baseline_mm, 6, 1e-9);
   EXPECT_NEAR(degrees_from_radians(form.alpha_rad), 14, 1e-9);
   EXPECT_NEAR(form.tilt_rad, 0, 1e-9);
+}
+
+TEST_F(CalibrationFile, ABentSurfaceIsReadInOpenCvsFrame) {
+  Text text;
+  ASSERT_TRUE(load_calibration(write(text.str()))->laser_bend.flat()) << "no such key: a plane";
+  text.rest = "laser_bend: " + mat(1, 7, "0.04, -0.003, 0.002, 0.005, -0.03, 0.007, -0.008");
+  const auto c = load_calibration(write(text.str()));
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->laser_bend.terms(), LaserBend::kCubic);
+  // 1/z = -n.(x, y, 1) / d + bend, y down in the file and up in the calibration.
+  const double x = 0.3, y = -0.1, plane = (-0.97 * y + 0.24) / 5.8;
+  const double bend = 0.04 * x * x - 0.003 * x * y + 0.002 * y * y + 0.005 * x * x * x - 0.03 * x * x * y +
+                      0.007 * x * y * y - 0.008 * y * y * y;
+  EXPECT_NEAR(*depth_along(c->laser, c->laser_bend, x, -y), 1 / (plane + bend), 1e-9);
+  EXPECT_FALSE(depth_along(c->laser, c->laser_bend, 0, -0.4)) << "behind the camera";
+}
+
+TEST_F(CalibrationFile, ABentSurfaceReadsBack) {
+  Calibration c = thesis_camera_ii();
+  for (const std::array<double, LaserBend::kCubic>& terms :
+       {std::array<double, LaserBend::kCubic>{0.04, -0.01, 0.02, 0, 0, 0, 0},
+        std::array<double, LaserBend::kCubic>{0.04, -0.01, 0.02, 0.001, -0.03, 0.002, 1.0 / 3}}) {
+    c.laser_bend.b = terms;
+    const auto back = calibration_from_text(*calibration_text(c), "text");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->laser_bend.b, terms);
+  }
+  c.laser_bend = {};
+  EXPECT_EQ(calibration_text(c)->find("laser_bend"), std::string::npos);
 }
 
 TEST_F(CalibrationFile, WhatIsWrittenReadsBack) {
@@ -194,6 +224,14 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"LaserWithoutDirection",
                [](Text& text) { text.laser = "laser_plane: " + mat(1, 4, "0., 0., 0., 5."); },
                ErrorCode::invalid, "laser_plane"},
+        Spoilt{"BendOfFourNumbers",
+               [](Text& text) { text.rest = "laser_bend: " + mat(1, 4, "0.04, 0., 0., 0."); },
+               ErrorCode::invalid, "laser_bend holds 4 numbers"},
+        Spoilt{"BendThatIsNotANumber",
+               [](Text& text) { text.rest = "laser_bend: " + mat(1, 3, "0.04, .Inf, 0."); },
+               ErrorCode::invalid, "laser_bend holds a number that is not finite"},
+        Spoilt{"BendInMetres", [](Text& text) { text.rest = "laser_bend: " + mat(1, 3, "40., 0., 0."); },
+               ErrorCode::invalid, "laser_bend holds 40"},
         Spoilt{"WrongShape",
                [](Text& text) { text.camera = "camera_matrix: " + mat(2, 3, "600.,0.,320., 0.,600.,240."); },
                ErrorCode::invalid, "2x3"},
@@ -240,6 +278,18 @@ TEST_F(CalibrationFile, WhatIsLeftAtItsDefaultIsNoted) {
   const auto c = load_calibration(write(text.str()));
   ASSERT_TRUE(c);
   EXPECT_EQ(c->notes.size(), 2U) << "hand-eye and harvester";
+}
+
+/// The thesis's laser, turned about the optical axis to either side of the camera.
+TEST(BaselineForms, OfALaserBesideTheCameraHaveItsBaselineToo) {
+  const LaserPlane above = laser_plane_from_baseline(6, radians_from_degrees(14));
+  for (const double side : {1.0, -1.0}) {
+    const LaserPlane beside{{side * above.normal.y(), 0.01, above.normal.z()}, above.offset};
+    const BaselineForm form = baseline_form(beside);
+    EXPECT_NEAR(form.baseline_mm, side * 6, 1e-12);
+    EXPECT_NEAR(form.alpha_rad, side * radians_from_degrees(14), 1e-12);
+    EXPECT_NEAR(form.tilt_rad, side * std::atan(0.01 / above.normal.y()), 1e-12);
+  }
 }
 
 TEST(ThesisPresets, AreThePrintedOnes) {

@@ -133,5 +133,17 @@ TEST(RecordedItems, ImpossibleNumbersAreRefused) {
   EXPECT_FALSE(read_picture(picture, codec, frame));
 }
 
+TEST(RecordedItems, ABentLaserSurfaceKeepsEveryBitToo) {
+  Calibration c = testing::made_calibration();
+  c.laser_bend.b = {1.0 / 3, -0.01, 0.02, 1e-300, -0.03, 0.002, 1.0 / 7};
+  Record record = recorded([&](RecordWriter& w) { add_record(w, c); });
+  const auto back = read_calibration(record);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->laser_bend.b, c.laser_bend.b);
+  EXPECT_EQ(back->notes, c.notes);
+  record.payload.pop_back();
+  EXPECT_FALSE(read_calibration(record));
+}
+
 }  // namespace
 }  // namespace linescope
