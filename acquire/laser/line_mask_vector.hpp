@@ -45,8 +45,8 @@ struct MarkedRow {
 /// Bytes ahead of the marker that are asked from memory: far enough to arrive in time.
 inline constexpr std::ptrdiff_t kPrefetch = 1024;
 
-/// Rows that are marked together, a few groups of one after a few of the next. They lie a quarter of the
-/// picture apart: memory that is asked for at several places at once delivers much faster than at one.
+/// Rows that are marked together, a few groups of one after a few of the next. They lie far apart:
+/// memory that is asked for at several places at once delivers much faster than at one.
 inline constexpr int kRowsAtOnce = 4;
 
 /// Groups of a row: the vectors do [begin, end), and within each of the three stretches, which end at `left`,
@@ -102,23 +102,33 @@ void mark_rows_by(const PictureView& p, const MaskRule& rule, const RowPlan& pla
   plainly(mask_words(p.width));
 }
 
+/// How far the rows lie apart that are marked together: a quarter of the picture, or as far as a ridge test
+/// across them looks, so that each row's sides are among the others.
+inline int rows_apart(const PictureView& p, const MaskRule& rule) {
+  const int quarter = std::max(1, p.height / kRowsAtOnce);
+  return rule.ridge() && rule.axis == ProfileAxis::column ? std::min(rule.reach, quarter) : quarter;
+}
+
 template <class Vectors, unsigned On, bool Ridge>
 void mark_picture_by(const PictureView& p, const MaskRule& rule, std::uint32_t* words) {
-  const int band = p.height / kRowsAtOnce;
-  for (int row = 0; row < band; ++row) {
-    std::array<int, kRowsAtOnce> ys{};
-    std::array<RowPlan, kRowsAtOnce> plans;
-    for (std::size_t i = 0; i < ys.size(); ++i) {
-      ys[i] = row + static_cast<int>(i) * band;
-      plans[i] = plan_of_row(p, rule, ys[i]);
+  const int apart = rows_apart(p, rule), block = kRowsAtOnce * apart;
+  int y = 0;
+  for (; y + block <= p.height; y += block) {
+    for (int row = y; row < y + apart; ++row) {
+      std::array<int, kRowsAtOnce> ys{};
+      std::array<RowPlan, kRowsAtOnce> plans;
+      for (std::size_t i = 0; i < ys.size(); ++i) {
+        ys[i] = row + static_cast<int>(i) * apart;
+        plans[i] = plan_of_row(p, rule, ys[i]);
+      }
+      const bool alike =
+          std::all_of(plans.begin(), plans.end(), [&](const RowPlan& o) { return o == plans[0]; });
+      const std::size_t together = alike ? ys.size() : 1;
+      for (std::size_t i = 0; i < ys.size(); i += together)
+        mark_rows_by<Vectors, On, Ridge>(p, rule, plans[i], {ys.data() + i, together}, words);
     }
-    const bool alike =
-        std::all_of(plans.begin(), plans.end(), [&](const RowPlan& o) { return o == plans[0]; });
-    const std::size_t together = alike ? ys.size() : 1;
-    for (std::size_t i = 0; i < ys.size(); i += together)
-      mark_rows_by<Vectors, On, Ridge>(p, rule, plans[i], {ys.data() + i, together}, words);
   }
-  for (int y = band * kRowsAtOnce; y < p.height; ++y)
+  for (; y < p.height; ++y)
     mark_rows_by<Vectors, On, Ridge>(p, rule, plan_of_row(p, rule, y), {&y, 1}, words);
 }
 
