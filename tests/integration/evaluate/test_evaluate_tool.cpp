@@ -2,41 +2,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/support/child_process.hpp"
+#include "tests/support/finished_run.hpp"
 
 namespace linescope {
 namespace {
 
-using testing::ChildProcess;
+using testing::file_contents;
+using testing::Finished;
 using ::testing::HasSubstr;
+using testing::run_to_end;
 using testing::TemporaryFolder;
 
 constexpr std::chrono::seconds kPatience(200);
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-Outcome run(const char* program, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), program);
-  ChildProcess child(arguments);
-  const auto end = child.wait(kPatience);
-  return {end && !end->signalled ? end->code : -1, child.standard_output(), child.standard_error()};
-}
-
-Outcome evaluate(std::vector<std::string> arguments) {
-  return run(LINESCOPE_EVALUATE, std::move(arguments));
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
+Finished evaluate(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), LINESCOPE_EVALUATE);
+  return run_to_end(std::move(arguments), kPatience);
 }
 
 TEST(EvaluateTool, SameSeedsSameBytesHoweverManyJobs) {
@@ -44,7 +26,7 @@ TEST(EvaluateTool, SameSeedsSameBytesHoweverManyJobs) {
   auto one = base, two = base;
   one.insert(one.end(), {"--jobs", "1"});
   two.insert(two.end(), {"--jobs", "2"});
-  const Outcome first = evaluate(one), second = evaluate(two);
+  const Finished first = evaluate(one), second = evaluate(two);
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_GT(first.out.size(), 2000u);
   EXPECT_EQ(first.out, second.out);
@@ -53,11 +35,11 @@ TEST(EvaluateTool, SameSeedsSameBytesHoweverManyJobs) {
 TEST(EvaluateTool, WritesTextAndHtmlWithDrawings) {
   const TemporaryFolder folder;
   const auto html = folder.path() / "report.html";
-  const Outcome o = evaluate({"--quick", "--seeds", "1", "--only", "site,prism", "--html", html.string()});
+  const Finished o = evaluate({"--quick", "--seeds", "1", "--only", "site,prism", "--html", html.string()});
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(o.out, HasSubstr("SIMULATED"));
   EXPECT_THAT(o.out, HasSubstr("Table 3.3"));
-  const std::string page = content(html);
+  const std::string page = file_contents(html);
   EXPECT_THAT(page, HasSubstr("<figure id=\"error-map\"><svg"));
   EXPECT_THAT(page, HasSubstr("Not for clinical use"));
 }
@@ -65,10 +47,10 @@ TEST(EvaluateTool, WritesTextAndHtmlWithDrawings) {
 TEST(EvaluateTool, RefusesInOneSentence) {
   EXPECT_EQ(evaluate({"--only", "nonsense"}).code, 2);
   EXPECT_EQ(evaluate({"--shape", "plane"}).code, 2) << "a shape belongs to a recording";
-  const Outcome missing = evaluate({"--replay", "/no/such/recording"});
+  const Finished missing = evaluate({"--replay", "/no/such/recording"});
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.err, HasSubstr("/no/such/recording"));
-  const Outcome unwritable = evaluate({"--only", "prism", "--html", "/no/such/folder/report.html"});
+  const Finished unwritable = evaluate({"--only", "prism", "--html", "/no/such/folder/report.html"});
   EXPECT_EQ(unwritable.code, 1);
   EXPECT_THAT(unwritable.err, HasSubstr("/no/such/folder/report.html"));
 }
@@ -76,13 +58,13 @@ TEST(EvaluateTool, RefusesInOneSentence) {
 TEST(EvaluateTool, JudgesARecordedSessionByItsShape) {
   const TemporaryFolder folder;
   const std::string recording = (folder.path() / "session").string();
-  const Outcome recorded =
-      run(LINESCOPE_ACQUIRE,
-          {"--segment", testing::unique_segment(), "--fast", "--scan", "--exit-at-end", "--record", recording,
-           "--set", "twin.phantom=cylinder-50", "--set", "twin.scenario=sweeps", "--set", "twin.noise=ideal",
-           "--set", "twin.duration_s=2.5"});
+  const Finished recorded =
+      run_to_end({LINESCOPE_ACQUIRE, "--segment", testing::unique_segment(), "--fast", "--scan",
+                  "--exit-at-end", "--record", recording, "--set", "twin.phantom=cylinder-50", "--set",
+                  "twin.scenario=sweeps", "--set", "twin.noise=ideal", "--set", "twin.duration_s=2.5"},
+                 kPatience);
   ASSERT_EQ(recorded.code, 0) << recorded.err;
-  const Outcome o = evaluate({"--replay", recording, "--shape", "cylinder-50", "--json"});
+  const Finished o = evaluate({"--replay", recording, "--shape", "cylinder-50", "--json"});
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(o.out, HasSubstr("recorded session"));
   EXPECT_THAT(o.out, ::testing::Not(HasSubstr("SIMULATED")));

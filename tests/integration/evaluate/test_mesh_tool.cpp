@@ -10,12 +10,14 @@
 #include "acquire/twin/phantom.hpp"
 #include "acquire/twin/triangle_file.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/finished_run.hpp"
 
 namespace linescope {
 namespace {
 
-using testing::ChildProcess;
+using testing::Finished;
 using ::testing::HasSubstr;
+using testing::run_to_end;
 using testing::TemporaryFolder;
 using Corner = std::array<double, 3>;
 
@@ -76,21 +78,14 @@ std::string as_vtp(double edge) {
       points, corners, ends);
 }
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
 class MeshTool : public ::testing::Test {
  protected:
-  Outcome convert(const std::string& name, const std::string& text, std::vector<std::string> more = {}) {
+  Finished convert(const std::string& name, const std::string& text, std::vector<std::string> more = {}) {
     const auto file = folder_.path() / name;
     std::ofstream(file) << text;
     std::vector<std::string> arguments{LINESCOPE_MESH, file.string(), target()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    ChildProcess child(arguments);
-    const auto end = child.wait(std::chrono::seconds(60));
-    return {end && !end->signalled ? end->code : -1, child.standard_output(), child.standard_error()};
+    return run_to_end(std::move(arguments), std::chrono::seconds(60));
   }
   std::string target() const { return (folder_.path() / "phantom.off").string(); }
 
@@ -102,7 +97,7 @@ TEST_F(MeshTool, EveryKindOfFileBecomesAPhantomOfTheTwin) {
   const std::array<std::pair<const char*, std::string>, 4> files{
       {{"box.stl", as_stl(20)}, {"box.obj", as_obj(20)}, {"BOX.PLY", as_ply(20)}, {"box.vtp", as_vtp(20)}}};
   for (const auto& [name, text] : files) {
-    const Outcome o = convert(name, text);
+    const Finished o = convert(name, text);
     ASSERT_EQ(o.code, 0) << name << ": " << o.err;
     EXPECT_THAT(o.out, HasSubstr("8 points, 12 triangles, 20.0 x 20.0 x 20.0 mm")) << name;
     const auto options = twin::phantom_from_name(target());
@@ -116,13 +111,13 @@ TEST_F(MeshTool, EveryKindOfFileBecomesAPhantomOfTheTwin) {
 }
 
 TEST_F(MeshTool, OpenMeshIsRefusedWithItsNumberOfEdges) {
-  const Outcome o = convert("open.stl", as_stl(20, 5));
+  const Finished o = convert("open.stl", as_stl(20, 5));
   EXPECT_EQ(o.code, 1);
   EXPECT_THAT(o.err, HasSubstr("not closed: 4 edges"));
 }
 
 TEST_F(MeshTool, MetresAreRefusedAndScaledWhenAsked) {
-  const Outcome o = convert("metres.obj", as_obj(0.02));
+  const Finished o = convert("metres.obj", as_obj(0.02));
   EXPECT_EQ(o.code, 1);
   EXPECT_THAT(o.err, HasSubstr("looks like metres"));
   EXPECT_THAT(o.err, HasSubstr("--scale 1000"));
@@ -130,13 +125,13 @@ TEST_F(MeshTool, MetresAreRefusedAndScaledWhenAsked) {
 }
 
 TEST_F(MeshTool, EmptyBrokenAndUnknownFilesAreRefusedInOneSentence) {
-  const Outcome empty = convert("empty.stl", "solid nothing\nendsolid nothing\n");
+  const Finished empty = convert("empty.stl", "solid nothing\nendsolid nothing\n");
   EXPECT_EQ(empty.code, 1);
   EXPECT_THAT(empty.err, HasSubstr("empty"));
-  const Outcome broken = convert("broken.vtp", "<VTKFile type=\"PolyData\"><Poly");
+  const Finished broken = convert("broken.vtp", "<VTKFile type=\"PolyData\"><Poly");
   EXPECT_EQ(broken.code, 1);
   EXPECT_EQ(std::count(broken.err.begin(), broken.err.end(), '\n'), 1) << broken.err;
-  const Outcome unknown = convert("box.step", "ISO-10303-21;");
+  const Finished unknown = convert("box.step", "ISO-10303-21;");
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr(".ply, .vtp, .stl or .obj"));
 }

@@ -6,6 +6,7 @@
 
 #include "tests/integration/ipc/kill_series.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/finished_run.hpp"
 
 namespace linescope::testing {
 namespace {
@@ -22,11 +23,6 @@ const std::string kPython = LINESCOPE_PYTHON;
       GTEST_SKIP() << "python3 with numpy is not installed (packages python3, python3-numpy)"; \
     }                                                                                          \
   } while (false)
-
-struct Finished {
-  int exit_code = -1;
-  std::string output, errors;
-};
 
 class RealDaemon : public ::testing::Test {
  protected:
@@ -53,11 +49,7 @@ class RealDaemon : public ::testing::Test {
     if (reader && reader->life(monotonic_now()) == Life::live) reader->read_lines(cursor, batch);
     return batch.lines.size();
   }
-  static Finished run(std::vector<std::string> arguments) {
-    ChildProcess process(std::move(arguments));
-    const auto end = process.wait(60s);
-    return {end && !end->signalled ? end->code : -1, process.standard_output(), process.standard_error()};
-  }
+  static Finished run(std::vector<std::string> arguments) { return run_to_end(std::move(arguments), 60s); }
   Finished inspect(std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {LINESCOPE_INSPECT, name_});
     return run(more);
@@ -94,12 +86,12 @@ TEST_F(RealDaemon, IsReadFromPythonByTheTablesAlone) {
   start();
   const Finished read = run({kPython, "-B", kSource + "/tests/integration/ipc/check_daemon.py", name_,
                              kSource + "/docs/segment.md"});
-  EXPECT_EQ(read.exit_code, 0) << read.errors;
-  EXPECT_NE(read.output.find("lines checked"), std::string::npos);
+  EXPECT_EQ(read.code, 0) << read.err;
+  EXPECT_NE(read.out.find("lines checked"), std::string::npos);
   const Finished example = run({kPython, "-B", kSource + "/tools/attach.py", name_, "--once"});
-  EXPECT_EQ(example.exit_code, 0) << example.errors;
-  EXPECT_NE(example.output.find("live, scanning"), std::string::npos) << example.output;
-  EXPECT_NE(example.output.find("endoscope ok ("), std::string::npos) << example.output;
+  EXPECT_EQ(example.code, 0) << example.err;
+  EXPECT_NE(example.out.find("live, scanning"), std::string::npos) << example.out;
+  EXPECT_NE(example.out.find("endoscope ok ("), std::string::npos) << example.out;
 }
 
 /// Everything an operator or a script may ask for.
@@ -126,25 +118,25 @@ for stage in ['extract', 'reconstruct', 'publish_line', 'frame_total', 'publish_
 
 TEST_F(RealDaemon, IsShownByInspectAndItsExitCodesTellScriptsWhatIsTheMatter) {
   LINESCOPE_NEEDS_PYTHON();
-  EXPECT_EQ(inspect().exit_code, 3) << "no segment yet";
+  EXPECT_EQ(inspect().code, 3) << "no segment yet";
   start();
   const Finished json = run({kPython, "-B", "-c", kCheckInspect, std::to_string(daemon_->pid()),
                              LINESCOPE_INSPECT, name_, "--json"});
-  EXPECT_EQ(json.exit_code, 0) << json.errors;
+  EXPECT_EQ(json.code, 0) << json.err;
   const Finished page = inspect();
-  EXPECT_EQ(page.exit_code, 0) << page.errors;
+  EXPECT_EQ(page.code, 0) << page.err;
   for (const char* shown : {"life      live", "state     scanning", "(nominal 240 Hz)", "(nominal 30 Hz)",
                             "spread", "p99", "lines_published"})
-    EXPECT_NE(page.output.find(shown), std::string::npos) << shown << " in\n" << page.output;
-  EXPECT_EQ(inspect({"--watch", "--times", "2", "--interval", "0.05"}).exit_code, 0);
+    EXPECT_NE(page.out.find(shown), std::string::npos) << shown << " in\n" << page.out;
+  EXPECT_EQ(inspect({"--watch", "--times", "2", "--interval", "0.05"}).code, 0);
   daemon_->send(SIGKILL);
   ASSERT_TRUE(daemon_->wait(10s));
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(inspect().exit_code, 4) << "dead, and still shown";
+  EXPECT_EQ(inspect().code, 4) << "dead, and still shown";
   start();  // takes over
   daemon_->send(SIGTERM);
   ASSERT_TRUE(daemon_->wait(10s));
-  EXPECT_EQ(inspect().exit_code, 3) << "an orderly end leaves nothing";
+  EXPECT_EQ(inspect().code, 3) << "an orderly end leaves nothing";
 }
 
 }  // namespace

@@ -8,30 +8,16 @@
 #include <sstream>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/finished_run.hpp"
 
 namespace linescope {
 namespace {
 
-using testing::ChildProcess;
+using testing::file_contents;
+using testing::Finished;
 using ::testing::HasSubstr;
+using testing::run_to_end;
 using testing::TemporaryFolder;
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-Outcome run(std::vector<std::string> arguments) {
-  ChildProcess child(std::move(arguments));
-  const auto end = child.wait(std::chrono::seconds(100));
-  return {end && !end->signalled ? end->code : -1, child.standard_output(), child.standard_error()};
-}
-
-std::string contents(const std::string& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::vector<Eigen::Vector3d> vertices_of_obj(const std::string& file) {
   std::vector<Eigen::Vector3d> vertices;
@@ -61,18 +47,18 @@ double sphere_radius(const std::vector<Eigen::Vector3d>& points) {
 class SurfaceTool : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Outcome recorded =
-        run({LINESCOPE_ACQUIRE, "--segment", testing::unique_segment(), "--fast", "--scan", "--exit-at-end",
-             "--record", recording(), "--set", "twin.phantom=sphere-50", "--set", "twin.scenario=sweeps",
-             "--set", "twin.noise=ideal", "--set", "twin.duration_s=2.5"});
+    const Finished recorded =
+        run_to_end({LINESCOPE_ACQUIRE, "--segment", testing::unique_segment(), "--fast", "--scan",
+                    "--exit-at-end", "--record", recording(), "--set", "twin.phantom=sphere-50", "--set",
+                    "twin.scenario=sweeps", "--set", "twin.noise=ideal", "--set", "twin.duration_s=2.5"});
     ASSERT_EQ(recorded.code, 0) << recorded.err;
   }
   std::string recording() const { return path("session"); }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  Outcome surface(const std::string& mesh, std::vector<std::string> more = {}) const {
+  Finished surface(const std::string& mesh, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{LINESCOPE_SURFACE, recording(), path(mesh)};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(std::move(arguments));
+    return run_to_end(std::move(arguments));
   }
 
  private:
@@ -81,11 +67,11 @@ class SurfaceTool : public ::testing::Test {
 
 TEST_F(SurfaceTool, MakesFilesThatSayFrameAndUnitAndHoldTheSphere) {
   for (const char* name : {"mesh.obj", "mesh.ply", "mesh.stl", "mesh.vtp"}) {
-    const Outcome o = surface(name);
+    const Finished o = surface(name);
     ASSERT_EQ(o.code, 0) << name << ": " << o.err;
     EXPECT_THAT(o.out, HasSubstr("frame Object, millimetres")) << name;
-    EXPECT_THAT(contents(path(name)), HasSubstr("frame")) << name;
-    EXPECT_THAT(contents(path(name)), HasSubstr("unit")) << name;
+    EXPECT_THAT(file_contents(path(name)), HasSubstr("frame")) << name;
+    EXPECT_THAT(file_contents(path(name)), HasSubstr("unit")) << name;
   }
   const auto vertices = vertices_of_obj(path("mesh.obj"));
   ASSERT_GT(vertices.size(), 100u);
@@ -102,13 +88,13 @@ TEST_F(SurfaceTool, MethodAndIntervalAreTheUsers) {
 }
 
 TEST_F(SurfaceTool, RefusesInOneSentence) {
-  const Outcome suffix = surface("mesh.doc"), interval = surface("mesh.ply", {"--interval", "0"});
+  const Finished suffix = surface("mesh.doc"), interval = surface("mesh.ply", {"--interval", "0"});
   EXPECT_EQ(suffix.code, 1);
   EXPECT_THAT(suffix.err, HasSubstr(".ply, .vtp, .stl or .obj"));
   EXPECT_EQ(interval.code, 1);
   EXPECT_THAT(interval.err, HasSubstr("must be a positive number of mm"));
   EXPECT_EQ(surface("mesh.ply", {"--method", "magic"}).code, 2);
-  const Outcome missing = run({LINESCOPE_SURFACE, "/no/such/recording", path("mesh.ply")});
+  const Finished missing = run_to_end({LINESCOPE_SURFACE, "/no/such/recording", path("mesh.ply")});
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.err, HasSubstr("/no/such/recording"));
 }

@@ -6,29 +6,25 @@
 
 #include "common/calibration.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/finished_run.hpp"
 
 namespace linescope {
 namespace {
 
 using testing::ChildProcess;
+using testing::Finished;
 using ::testing::HasSubstr;
+using testing::run_to_end;
 using testing::TemporaryFolder;
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-Outcome calibrate(std::vector<std::string> arguments) {
+Finished calibrate(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), LINESCOPE_CALIBRATE);
-  ChildProcess child(arguments);
-  const auto end = child.wait(std::chrono::seconds(60));
-  return {end && !end->signalled ? end->code : -1, child.standard_output(), child.standard_error()};
+  return run_to_end(std::move(arguments), std::chrono::seconds(60));
 }
 
 TEST(CalibrateProgram, SaysWhatIsMissing) {
   EXPECT_EQ(calibrate({}).code, 2);
-  const Outcome no_file = calibrate({"camera"});
+  const Finished no_file = calibrate({"camera"});
   EXPECT_EQ(no_file.code, 2);
   EXPECT_THAT(no_file.err, HasSubstr("--calibration FILE"));
   EXPECT_EQ(calibrate({"show", "/nowhere.yaml"}).code, 4);
@@ -41,7 +37,7 @@ TEST(CalibrateProgram, ImportsAPresetAndShowsWhereItComesFrom) {
   const std::string file = folder.path() / "c.yaml";
   ASSERT_EQ(calibrate({"import", "thesis-camera-i", "--calibration", file}).code, 0);
   EXPECT_EQ(load_calibration(file)->camera.fx, 771.3048);
-  const Outcome shown = calibrate({"show", file});
+  const Finished shown = calibrate({"show", file});
   EXPECT_EQ(shown.code, 0);
   EXPECT_THAT(shown.out, HasSubstr("from thesis-camera-i"));
   EXPECT_THAT(shown.out, HasSubstr("never calibrated: run linescope-calibrate laser"));
@@ -55,9 +51,9 @@ TEST(CalibrateProgram, CalibratesTheCameraOfALivingDaemonAndDraws) {
                        "thesis-camera-ii", "--set", "twin.phantom=board", "--set", "twin.scenario=board",
                        "--segment", segment});
   ASSERT_TRUE(testing::eventually([&] { return !testing::leftovers(segment).empty(); }));
-  const Outcome done = calibrate({"camera", "--segment", segment, "--calibration", file, "--set",
-                                  "board.square_mm=1", "--set", "camera.most_pictures=14", "--set",
-                                  "camera.every_ms=500", "--plots", folder.path() / "plots"});
+  const Finished done = calibrate({"camera", "--segment", segment, "--calibration", file, "--set",
+                                   "board.square_mm=1", "--set", "camera.most_pictures=14", "--set",
+                                   "camera.every_ms=500", "--plots", folder.path() / "plots"});
   ASSERT_EQ(done.code, 0) << done.err << done.out;
   EXPECT_THAT(done.out, HasSubstr("held out"));
   EXPECT_THAT(done.err, HasSubstr("pictures with a board"));
@@ -65,7 +61,7 @@ TEST(CalibrateProgram, CalibratesTheCameraOfALivingDaemonAndDraws) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots" / "camera-coverage.png"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots" / "camera-residuals.png"));
   // Four pictures are too few: nothing is stored.
-  const Outcome refused =
+  const Finished refused =
       calibrate({"camera", "--segment", segment, "--calibration", folder.path() / "d.yaml", "--set",
                  "board.square_mm=1", "--set", "camera.most_pictures=4"});
   EXPECT_EQ(refused.code, 9);
