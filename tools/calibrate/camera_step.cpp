@@ -5,6 +5,7 @@
 #include "tools/calibrate/optical_steps.hpp"
 #include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
+#include "tools/calibrate/tracker_opinion.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -68,6 +69,7 @@ class CameraStep final : public Step {
     };
     out.plots.push_back({"camera-coverage", plot_coverage(session)});
     out.plots.push_back({"camera-residuals", plot_corner_errors(session, board, fit->camera, *fit)});
+    ask_tracker(out, session, board, fit->camera, before.camera_latency);
     if (before.camera.width == fit->camera.width && before.camera.height == fit->camera.height)
       out.plots.push_back(
           {"camera-residuals-before", plot_corner_errors(session, board, before.camera, *fit)});

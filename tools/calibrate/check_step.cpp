@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "acquire/reconstruct/line_reconstructor.hpp"
+#include "tools/calibrate/check_plots.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -57,18 +58,27 @@ void add_still(Quality& q, const std::vector<StillStation>& stations) {
   }
 }
 
-/// Both verdicts in one: what the body showed, what the tracker at rest showed.
-std::optional<Error> both(const Result<void>& body, const Result<void>& still) {
-  if (!body && !still) return Error{body.error().code, body.error().message + " " + still.error().message};
-  if (!body) return body.error();
-  if (!still) return still.error();
-  return std::nullopt;
+void add_pair(Quality& q, const PairCheck& check) {
+  q.parameters.push_back({"metal test: distance of the pair, RMS difference", check.rms_mm, kUnknown, "mm"});
+  q.parameters.push_back({"metal test: turn of the pair, RMS difference", check.rms_deg, kUnknown, "deg"});
+  q.parameters.push_back({"metal test: largest difference", check.worst_mm, kUnknown, "mm"});
+  q.spread.push_back({"metal test: places", static_cast<double>(check.places.size()), kUnknown, ""});
+  q.spread.push_back({"metal test: places reach over", check.extent_mm, kUnknown, "mm"});
+}
+
+/// One more verdict: all that is wrong is told at once.
+void judge(Outcome& outcome, const Result<void>& verdict) {
+  if (verdict) return;
+  if (outcome.refused)
+    outcome.refused->message += " " + verdict.error().message;
+  else
+    outcome.refused = verdict.error();
 }
 
 }  // namespace
 
 Result<std::vector<ScanLine>> placed_lines(const Session& session, const Calibration& calibration,
-                                           std::vector<LeftOut>& left_out) {
+                                           std::vector<LeftOut>& left_out, ProfileAxis axis) {
   auto reconstructor = LineReconstructor::create(calibration, {});
   if (!reconstructor) return tl::unexpected(reconstructor.error());
   std::vector<ScanLine> lines;
@@ -84,6 +94,7 @@ Result<std::vector<ScanLine>> placed_lines(const Session& session, const Calibra
     ExtractedLine line;
     line.width = session.width;
     line.height = session.height;
+    line.axis = axis;
     line.samples = o.line;
     ReconstructedLine placed;
     const auto world_from_endoscope = renamed<World, Endoscope>(endoscope.world_from_sensor);
@@ -95,13 +106,17 @@ Result<std::vector<ScanLine>> placed_lines(const Session& session, const Calibra
 }
 
 void CheckStep::declare(ConfigSchema& schema) {
-  schema.section("check", "A body of known size, and the tracker at rest.");
+  schema.section("check", "A body of known size, the tracker at rest, and the tracker's field.");
+  schema.flag("check.body", tests_.body, "Test the scan of a body; false: the tracker alone.");
+  line_.declare(schema, "check");
   schema.choice("check.shape", shape_.shape,
                 {{"plane", Shape::plane}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}},
                 "What is scanned.");
   schema.number("check.diameter_mm", shape_.diameter_mm, {.unit = "mm", .min = 5, .max = 1000},
                 "Of cylinder or sphere, by caliper.");
   schema.integer("check.least_lines", shape_.least_lines, {.min = 10, .max = 100000}, "Laser lines needed.");
+  schema.integer("check.most_lines", most_lines_, {.min = 0, .max = 100000},
+                 "Enough laser lines; 0: until --seconds are over or the recording ends.");
   schema.integer("check.least_passes", shape_.least_passes, {.min = 1, .max = 1000},
                  "Passes to and fro needed.");
   schema.number("check.least_extent_mm", shape_.least_extent_mm, {.unit = "mm", .min = 1, .max = 1000},
@@ -114,7 +129,7 @@ void CheckStep::declare(ConfigSchema& schema) {
                 "Limit of the passes' SD.");
   schema.number("check.most_target_error_mm", shape_.most_target_error_mm, limit,
                 "Limit of the RMS error of points that were in no fit.");
-  schema.flag("check.still", still_test_, "Test the tracker at rest as well.");
+  schema.flag("check.still", tests_.still, "Test the tracker at rest as well.");
   schema.numbers("check.still_stations", still_stations_, {.min = 1, .max = kMaxStations}, {},
                  "Sensors that lie still, numbered as on the tracker; empty: the object's.");
   schema.number("check.still_seconds", still_.least_seconds, {.unit = "s", .min = 0.5, .max = 600},
@@ -127,16 +142,41 @@ void CheckStep::declare(ConfigSchema& schema) {
   schema.number("check.most_drift_mm", still_.most_drift_mm, small, "Limit of a resting sensor's drift.");
   schema.number("check.most_distortion", still_.most_distortion, {.min = 0, .max = 1e6},
                 "Limit of the tracker's metal indicator, where it gives one.");
+  declare_pair(schema);
+}
+
+void CheckStep::declare_pair(ConfigSchema& schema) {
+  schema.numbers("check.metal_pair", tests_.metal_pair, {.min = 1, .max = kMaxStations},
+                 {.min_items = 0, .max_items = 2},
+                 "Metal test: two sensors that are fixed to each other and carried about, numbered as on the "
+                 "tracker; empty: not tested.");
+  schema.number("check.metal_spacing_mm", pair_.spacing_mm, {.unit = "mm", .min = 5, .max = 500},
+                "Metal test: distance between two places.");
+  schema.integer("check.metal_places", pair_.least_places, {.min = 2, .max = 1000},
+                 "Metal test: places needed.");
+  schema.number("check.most_metal_mm", pair_.most_mm, {.unit = "mm", .min = 0.01, .max = 100},
+                "Metal test: limit of the RMS difference of the pair's distance.");
+  schema.number("check.most_metal_deg", pair_.most_deg, {.unit = "deg", .min = 0.01, .max = 90},
+                "Metal test: limit of the RMS difference of its turn.");
 }
 
 Result<void> CheckStep::validate() const {
   if (auto ok = calibrate::validate(shape_); !ok) return ok;
+  if (auto ok = calibrate::validate(pair_); !ok) return ok;
+  const bool pair_fits = tests_.metal_pair.empty() ||
+                         (tests_.metal_pair.size() == 2 && tests_.metal_pair[0] != tests_.metal_pair[1]);
+  if (!pair_fits) return fail(ErrorCode::invalid, "check.metal_pair names two different sensors, or none");
+  if (!tests_.body && !tests_.still && tests_.metal_pair.empty())
+    return fail(ErrorCode::invalid,
+                "check.body, check.still and check.metal_pair are all off: nothing to check");
   return calibrate::validate(still_);
 }
 
 CollectOptions CheckStep::wants(const BoardOptions&) const {
   CollectOptions wanted;
-  wanted.line = LineExtractorOptions{};
+  if (tests_.body) wanted.line = line_.line;
+  wanted.poses_only = !tests_.body;
+  wanted.most_pictures = static_cast<std::size_t>(most_lines_);
   return wanted;
 }
 
@@ -157,24 +197,51 @@ std::vector<StillStation> CheckStep::resting(const Session& session) const {
   return stretches;
 }
 
-Result<Outcome> CheckStep::run(const Session& session, const BoardOptions&, const Calibration& before) const {
-  Outcome outcome;
+Result<void> CheckStep::test_body(const Session& session, const Calibration& before, Outcome& outcome) const {
   outcome.method = fmt::format("{} of known size, least squares of distances", linescope::name(shape_.shape));
-  outcome.quality.offered = session.offered;
-  outcome.quality.left_out = session.left_out;
-  const auto lines = placed_lines(session, before, outcome.quality.left_out);
+  const auto lines = placed_lines(session, before, outcome.quality.left_out, line_.line.axis);
   if (!lines) return tl::unexpected(lines.error());
   const auto check = check_shape(*lines, shape_);
   if (!check) return tl::unexpected(check.error());
   add_shape(outcome, *check);
-  Result<void> still;
-  if (still_test_) {
-    const auto stations = check_still(resting(session), still_);
-    if (!stations) return tl::unexpected(stations.error());
-    add_still(outcome.quality, *stations);
-    still = above_limit(*stations, still_);
+  outcome.plots.push_back(plot_shape(*check, shape_));
+  judge(outcome, above_limit(*check, shape_));
+  return {};
+}
+
+Result<void> CheckStep::test_rest(const Session& session, Outcome& outcome) const {
+  const auto stations = check_still(resting(session), still_);
+  if (!stations) return tl::unexpected(stations.error());
+  add_still(outcome.quality, *stations);
+  outcome.plots.push_back(plot_still(*stations, still_));
+  judge(outcome, above_limit(*stations, still_));
+  return {};
+}
+
+Result<void> CheckStep::test_metal(const Session& session, Outcome& outcome) const {
+  const auto samples = [&](std::size_t which) -> const std::vector<PoseSample>& {
+    return session.poses.at(static_cast<std::size_t>(tests_.metal_pair[which]) - 1);
+  };
+  const auto check = check_pair(samples(0), samples(1), pair_);
+  if (!check) return tl::unexpected(check.error());
+  add_pair(outcome.quality, *check);
+  outcome.plots.push_back(plot_pair(*check, pair_));
+  judge(outcome, above_limit(*check, pair_));
+  return {};
+}
+
+Result<Outcome> CheckStep::run(const Session& session, const BoardOptions&, const Calibration& before) const {
+  Outcome outcome;
+  outcome.method = "the tracker alone";
+  outcome.quality.offered = session.offered;
+  if (tests_.body) {
+    outcome.quality.left_out = session.left_out;
+    if (auto ok = test_body(session, before, outcome); !ok) return tl::unexpected(ok.error());
   }
-  outcome.refused = both(above_limit(*check, shape_), still);
+  if (tests_.still)
+    if (auto ok = test_rest(session, outcome); !ok) return tl::unexpected(ok.error());
+  if (!tests_.metal_pair.empty())
+    if (auto ok = test_metal(session, outcome); !ok) return tl::unexpected(ok.error());
   return outcome;
 }
 

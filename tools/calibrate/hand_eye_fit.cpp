@@ -10,6 +10,7 @@
 #include "tools/calibrate/hand_eye_solve.hpp"
 #include "tools/calibrate/rotation_vector.hpp"
 #include "tools/calibrate/sample_statistics.hpp"
+#include "tools/calibrate/tracker_opinion.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -30,12 +31,9 @@ class HandEyeFitter {
   Result<HandEyeFit> run();
 
  private:
-  Result<Rigid<Base, Endoscope>> pose_of(const Observation& seen) const;
   void choose_pictures();
   Result<void> check_count() const;
   Result<void> check_turns() const;
-  std::optional<HandEyeSolution> start(const HandEyePictures& pictures,
-                                       std::vector<std::pair<std::string, double>>* methods) const;
   std::optional<HandEyeSolution> solve(const HandEyePictures& pictures, HandEyeWeights weights) const;
   void drop_outliers();
   LeftOutChain leave_one_out(HandEyeWeights weights) const;
@@ -60,19 +58,20 @@ std::string_view sensor_name(bool endoscope) {
   return endoscope ? "endoscope" : "object";
 }
 
-Result<Rigid<Base, Endoscope>> HandEyeFitter::pose_of(const Observation& seen) const {
-  const auto gap = static_cast<Nanoseconds>(options_.longest_gap_ms * 1e6);
+Result<Rigid<Base, Endoscope>> base_from_endoscope(const Session& session, const Observation& seen,
+                                                   Nanoseconds latency, const HandEyeOptions& options) {
+  const auto gap = static_cast<Nanoseconds>(options.longest_gap_ms * 1e6);
   const auto ask = [&](int station, bool endoscope) -> Result<Rigid<World, Sensor>> {
-    const PoseAnswer answer = session_.pose_at(station, seen.time, latency_, gap);
+    const PoseAnswer answer = session.pose_at(station, seen.time, latency, gap);
     if (answer.ok()) return answer.world_from_sensor;
     return fail(ErrorCode::invalid,
                 fmt::format("no pose of the {}: {}", sensor_name(endoscope),
                             answer.miss == PoseMiss::state_bad ? name(answer.state) : name(answer.miss)));
   };
-  const auto endoscope = ask(session_.stations.endoscope, true);
+  const auto endoscope = ask(session.stations.endoscope, true);
   if (!endoscope) return tl::unexpected(endoscope.error());
-  if (options_.board_on == BoardFixedTo::world) return renamed<Base, Endoscope>(*endoscope);
-  const auto object = ask(session_.stations.object, false);
+  if (options.board_on == BoardFixedTo::world) return renamed<Base, Endoscope>(*endoscope);
+  const auto object = ask(session.stations.object, false);
   if (!object) return tl::unexpected(object.error());
   return renamed<Base, Endoscope>(renamed<Sensor, World>(object->inverse()) *
                                   renamed<World, Sensor>(*endoscope));
@@ -83,28 +82,8 @@ void HandEyeFitter::choose_pictures() {
   q.unit = "mm";
   q.offered = session_.offered;
   q.left_out = session_.left_out;
-  for (const Observation& seen : session_.observations) {
-    if (seen.board.empty()) {
-      q.left_out.push_back({seen.name, "no board found"});
-      continue;
-    }
-    const auto board = board_pose(board_, camera_, seen.board);
-    const auto endoscope = pose_of(seen);
-    if (!board || board->rms_px > options_.max_board_px)
-      q.left_out.push_back({seen.name, board ? fmt::format("the board fits to {:.2f} px only", board->rms_px)
-                                             : board.error().message});
-    else if (!endoscope)
-      q.left_out.push_back({seen.name, endoscope.error().message});
-    else
-      pictures_.push_back({seen.name, board->camera_from_board, *endoscope,
-                           pose_covariance_per_px2(board_, camera_, seen.board, board->camera_from_board),
-                           board->rms_px});
-  }
-  double sum = 0;
-  for (const HandEyePicture& p : pictures_) sum += p.rms_px * p.rms_px;
-  // RMS over corners is that of two coordinates together.
-  if (!pictures_.empty())
-    corner_px_ = std::max(0.01, std::sqrt(sum / static_cast<double>(pictures_.size()) / 2));
+  pictures_ = hand_eye_pictures(session_, board_, camera_, latency_, options_, q.left_out);
+  corner_px_ = corner_noise_px(used());
 }
 
 Result<void> HandEyeFitter::check_count() const {
@@ -136,24 +115,9 @@ HandEyePictures HandEyeFitter::used() const {
   return all;
 }
 
-std::optional<HandEyeSolution> HandEyeFitter::start(
-    const HandEyePictures& pictures, std::vector<std::pair<std::string, double>>* methods) const {
-  std::optional<HandEyeSolution> best;
-  double least = 0;
-  for (const auto& [name, guess] : closed_forms(pictures)) {
-    HandEyeSolution s;
-    s.endoscope_from_camera = guess;
-    s.base_from_board = mean_board(pictures, guess);
-    const double error = chain_error(pictures, s, board_);
-    if (methods) methods->emplace_back(name, error);
-    if (!best || error < least) best = s, least = error;
-  }
-  return best;
-}
-
 std::optional<HandEyeSolution> HandEyeFitter::solve(const HandEyePictures& pictures,
                                                     HandEyeWeights weights) const {
-  const auto first = start(pictures, nullptr);
+  const auto first = best_closed_form(pictures, board_);
   if (!first) return std::nullopt;
   return weights == HandEyeWeights::corners ? refine_corners(pictures, *first, board_)
                                             : refine(pictures, *first, corner_px_, false);
@@ -219,24 +183,12 @@ Eigen::Matrix<double, 6, 1> jackknife(const LeftOutChain& chain, const Rigid<End
   return ((n - 1) / n * squares).cwiseSqrt();
 }
 
-/// The tracker measures in millimetres of its own: with the board's size as one more unknown a wrong size
-/// shows.
 void HandEyeFitter::check_scale(const HandEyeSolution& solution) {
   const HandEyeSolution scaled = refine(used(), solution, corner_px_, true);
-  fit_.quality.parameters.push_back(
-      {"tracker's mm per board's mm", scaled.scale, scaled.scale_deviation, ""});
-  const double off = std::abs(scaled.scale - 1);
-  if (off > options_.max_scale_error && off > 3 * scaled.scale_deviation)
-    fit_.refused = refusal(
-        Refusal::error_above_limit,
-        fmt::format("by the tracker the board's squares measure {:.3f} mm (+-{:.3f}) instead of {:g} mm",
-                    scaled.scale * board_.square_mm, scaled.scale_deviation * board_.square_mm,
-                    board_.square_mm),
-        "Measure a square of the printed board, give its size as board.square_mm, and repeat the laser step "
-        "too");
+  fit_.quality.parameters.push_back(scale_figure(scaled));
+  fit_.refused = wrong_square(scaled, board_, options_.max_scale_error);
 }
 
-/// A mirrored chessboard is a chessboard; its motions, however, are mirrored and fit no hand-eye.
 void HandEyeFitter::check_mirror() {
   std::vector<HandEyePicture> others;
   for (const HandEyePicture& p : pictures_) others.push_back(unmirrored(p));
@@ -245,13 +197,7 @@ void HandEyeFitter::check_mirror() {
   const auto solution = solve(mirrored, fit_.weights);
   if (!solution) return;
   const double error = chain_error(mirrored, *solution, board_);
-  if (error < 0.5 * fit_.quality.residual && error < options_.max_residual_mm)
-    fit_.refused =
-        refusal(Refusal::error_above_limit,
-                fmt::format("the pictures are mirrored: read in a mirror they fit to {:.2f} mm, as "
-                            "they are to {:.2f} mm",
-                            error, fit_.quality.residual),
-                "Switch off the camera's mirror or flip, and calibrate the camera again");
+  if (error < options_.max_residual_mm) fit_.refused = mirrored_pictures(fit_.quality.residual, error);
 }
 
 void HandEyeFitter::describe(const HandEyeSolution& s, const LeftOutChain& left_out) {
@@ -305,7 +251,7 @@ Result<HandEyeFit> HandEyeFitter::run() {
   if (auto ok = check_count(); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_turns(); !ok) return tl::unexpected(ok.error());
   drop_outliers();
-  const auto first = start(used(), &fit_.methods);
+  const auto first = best_closed_form(used(), board_, &fit_.methods);
   if (!first)
     return tl::unexpected(refusal(Refusal::too_little_variation, "none of the methods finds a transform",
                                   "Turn the endoscope about more than one axis"));
@@ -315,6 +261,7 @@ Result<HandEyeFit> HandEyeFitter::run() {
   describe(*solution, left_out);
   judge();
   if (!fit_.refused) check_scale(*solution);
+  fit_.pictures = std::move(pictures_);
   return std::move(fit_);
 }
 
@@ -325,6 +272,30 @@ Result<void> validate(const HandEyeOptions& o) {
     return fail(ErrorCode::invalid,
                 fmt::format("hand-eye.min_pictures = {}: at least 3 are needed", o.min_pictures));
   return {};
+}
+
+std::vector<HandEyePicture> hand_eye_pictures(const Session& session, const BoardOptions& board,
+                                              const CameraModel& camera, Nanoseconds latency,
+                                              const HandEyeOptions& options, std::vector<LeftOut>& left_out) {
+  std::vector<HandEyePicture> pictures;
+  for (const Observation& seen : session.observations) {
+    if (seen.board.empty()) {
+      left_out.push_back({seen.name, "no board found"});
+      continue;
+    }
+    const auto pose = board_pose(board, camera, seen.board);
+    const auto endoscope = base_from_endoscope(session, seen, latency, options);
+    if (!pose || pose->rms_px > options.max_board_px)
+      left_out.push_back({seen.name, pose ? fmt::format("the board fits to {:.2f} px only", pose->rms_px)
+                                          : pose.error().message});
+    else if (!endoscope)
+      left_out.push_back({seen.name, endoscope.error().message});
+    else
+      pictures.push_back({seen.name, pose->camera_from_board, *endoscope,
+                          pose_covariance_per_px2(board, camera, seen.board, pose->camera_from_board),
+                          pose->rms_px});
+  }
+  return pictures;
 }
 
 Result<HandEyeFit> fit_hand_eye(const Session& session, const BoardOptions& board, const CameraModel& camera,

@@ -49,6 +49,7 @@ struct HandEyeFit {
   HandEyeWeights weights = HandEyeWeights::tracker;  ///< the choice made
   Quality quality;                                   ///< mm
   std::optional<Error> refused;
+  std::vector<HandEyePicture> pictures;                 ///< those of the fit
   std::vector<std::pair<std::string, double>> methods;  ///< OpenCV's methods by name: RMS of the corners, mm
   /// Eq 4.9's special case, camera and sensor in parallel: L_r and the RMS it leaves, mm.
   Eigen::Vector3d parallel_lever{0, 0, 0};
@@ -56,6 +57,11 @@ struct HandEyeFit {
   double tracker_noise_mm = 0;   ///< per axis, as the fit finds it
   double tracker_noise_rad = 0;  ///< per axis
 };
+
+/// The pictures with a board, a good view of it and poses on both sides in time; `left_out` gets the others.
+std::vector<HandEyePicture> hand_eye_pictures(const Session& session, const BoardOptions& board,
+                                              const CameraModel& camera, Nanoseconds latency,
+                                              const HandEyeOptions& options, std::vector<LeftOut>& left_out);
 
 /// `camera` and `latency` as calibrated.
 Result<HandEyeFit> fit_hand_eye(const Session& session, const BoardOptions& board, const CameraModel& camera,

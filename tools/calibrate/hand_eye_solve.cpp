@@ -154,6 +154,30 @@ Rigid<Base, Board> mean_board(const HandEyePictures& pictures,
   return {Eigen::Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(3))), origin};
 }
 
+std::optional<HandEyeSolution> best_closed_form(const HandEyePictures& pictures, const BoardOptions& board,
+                                                std::vector<std::pair<std::string, double>>* methods) {
+  std::optional<HandEyeSolution> best;
+  double least = 0;
+  for (const auto& [name, guess] : closed_forms(pictures)) {
+    HandEyeSolution s;
+    s.endoscope_from_camera = guess;
+    s.base_from_board = mean_board(pictures, guess);
+    const double error = chain_error(pictures, s, board);
+    if (methods) methods->emplace_back(name, error);
+    if (!best || error < least) best = s, least = error;
+  }
+  return best;
+}
+
+double corner_noise_px(const HandEyePictures& pictures) {
+  double sum = 0;
+  for (const HandEyePicture* p : pictures) sum += p->rms_px * p->rms_px;
+  // RMS over corners is that of two coordinates together.
+  const double least = 0.01;
+  return pictures.empty() ? least
+                          : std::max(least, std::sqrt(sum / static_cast<double>(pictures.size()) / 2));
+}
+
 HandEyeSolution refine(const HandEyePictures& pictures, const HandEyeSolution& start, double corner_px,
                        bool with_scale) {
   const Eigen::Index unknowns = with_scale ? 13 : 12;

@@ -26,6 +26,14 @@ struct HandEyeSolution {
 /// OpenCV's methods by name; those that fail are left out.
 std::vector<std::pair<std::string, Rigid<Endoscope, CameraCv>>> closed_forms(const HandEyePictures& pictures);
 
+/// The best of them, and how well each does (RMS of the board's corners, mm) when `methods` is given.
+std::optional<HandEyeSolution> best_closed_form(
+    const HandEyePictures& pictures, const BoardOptions& board,
+    std::vector<std::pair<std::string, double>>* methods = nullptr);
+
+/// Noise of the corners, px per coordinate, as the pictures' own fits show it.
+double corner_noise_px(const HandEyePictures& pictures);
+
 /// The board's place as the mean over all pictures.
 Rigid<Base, Board> mean_board(const HandEyePictures& pictures,
                               const Rigid<Endoscope, CameraCv>& endoscope_from_camera);

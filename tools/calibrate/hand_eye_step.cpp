@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include "tools/calibrate/camera_match.hpp"
 #include "tools/calibrate/hand_eye_fit.hpp"
 #include "tools/calibrate/optical_steps.hpp"
 #include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
+#include "tools/calibrate/tool_plots.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -60,6 +62,7 @@ class HandEyeStep final : public Step {
 
   Result<Outcome> run(const Session& session, const BoardOptions& board,
                       const Calibration& before) const override {
+    if (auto ok = fits_camera(session, before.camera); !ok) return tl::unexpected(ok.error());
     auto fit = fit_hand_eye(session, board, before.camera, before.camera_latency, o_);
     if (!fit) return tl::unexpected(fit.error());
     Outcome out;
@@ -78,6 +81,7 @@ class HandEyeStep final : public Step {
       c.endoscope_from_camera = found;
       return previous;
     };
+    out.plots.push_back(plot_hand_eye(*fit, board, before.endoscope_from_camera));
     out.plots.push_back({"hand-eye-errors", plot_items(fit->quality)});
     return out;
   }

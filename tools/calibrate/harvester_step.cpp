@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/units.hpp"
+#include "tools/calibrate/tool_plots.hpp"
 #include "tools/calibrate/turn_correlation.hpp"
 
 namespace linescope::calibrate {
@@ -113,6 +114,8 @@ void HarvesterStep::declare(ConfigSchema& schema) {
   schema.choice("harvester.held_by", o.held_by, {{"world", HeldBy::world}, {"object", HeldBy::object}},
                 "Divot, bushing or block are at rest, or fixed to the object's sensor.");
   schema.integer("harvester.least_poses", o.pivot.least_poses, {.min = 10, .max = 1e6}, "Good poses needed.");
+  schema.integer("harvester.most_poses", o.most_poses, {.min = 0, .max = 1e6},
+                 "Enough poses, good or not; 0: until --seconds are over or the recording ends.");
   schema.number("harvester.least_swing_deg", o.pivot.least_swing_deg, {.unit = "deg", .min = 1, .max = 90},
                 "Pivoting: RMS swing in its lesser direction.");
   schema.number("harvester.most_rms_mm", o.pivot.most_rms_mm, {.unit = "mm", .min = 0.01, .max = 100},
@@ -150,6 +153,13 @@ Result<void> HarvesterStep::validate() const {
   return calibrate::validate(block());
 }
 
+CollectOptions HarvesterStep::wants(const BoardOptions&) const {
+  CollectOptions wanted;
+  wanted.poses_only = true;
+  wanted.most_poses = static_cast<std::size_t>(options_.most_poses);
+  return wanted;
+}
+
 std::string HarvesterStep::coverage(const Session& so_far, const BoardOptions&) const {
   const HeldPoses held = held_poses(so_far, options_.held_by);
   if (held.poses.empty()) return "no good pose of the harvester yet";
@@ -175,7 +185,7 @@ Result<Outcome> HarvesterStep::run(const Session& session, const BoardOptions&,
   return fail(ErrorCode::internal, "unknown motion of the harvester");
 }
 
-Result<Outcome> HarvesterStep::pivot(const HeldPoses& held, const Calibration&) const {
+Result<Outcome> HarvesterStep::pivot(const HeldPoses& held, const Calibration& before) const {
   const auto fit = fit_pivot(held.poses, options_.pivot);
   if (!fit) return tl::unexpected(fit.error());
   Outcome outcome;
@@ -188,6 +198,7 @@ Result<Outcome> HarvesterStep::pivot(const HeldPoses& held, const Calibration&) 
   q.spread = {{"swing in its lesser direction, RMS", fit->swing_deg, kUnknown, "deg"},
               {"largest turn", fit->turned_deg, kUnknown, "deg"}};
   if (auto ok = above_limit(*fit, options_.pivot); !ok) outcome.refused = ok.error();
+  outcome.plots.push_back(plot_pivot(held.poses, *fit, before.harvester.tip));
   outcome.put = [tip = fit->tip](Calibration& c) { return put_tip(c, tip); };
   return outcome;
 }
@@ -212,6 +223,7 @@ Result<Outcome> HarvesterStep::spin(const HeldPoses& held, const Calibration& be
     q.remarks.push_back(
         "The tip is not known yet: which end of the axis is the tip's is settled by pivoting.");
   if (auto ok = above_limit(*fit, options_.spin); !ok) outcome.refused = ok.error();
+  outcome.plots.push_back(plot_spin(held.poses, *fit));
   outcome.put = [axis = fit->axis](Calibration& c) { return put_axis(c, axis); };
   return outcome;
 }
@@ -228,6 +240,7 @@ Result<Outcome> HarvesterStep::known_block(const HeldPoses& held) const {
   add_axis(q, fit->axis, fit->axis_deviation_rad);
   q.spread = {{"scatter of the axis, RMS", degrees_from_radians(fit->residual_rad), kUnknown, "deg"}};
   if (auto ok = above_limit(*fit, block()); !ok) outcome.refused = ok.error();
+  outcome.plots.push_back(plot_block(held.poses, block(), *fit));
   outcome.put = [tip = fit->tip, axis = fit->axis](Calibration& c) {
     const std::string previous = "axis " + text_of(c.harvester.axis) + ", " + put_tip(c, tip);
     c.harvester.axis = axis;

@@ -21,6 +21,7 @@ struct HarvesterOptions {
   std::vector<double> block_tip{0, 0, 0};   ///< mm, in the frame of what holds the block
   std::vector<double> block_axis{0, 0, 1};  ///< from the tip to the handle, the same frame
   double block_rms_mm = 1.0;
+  int most_poses = 0;  ///< collecting ends with so many; 0: with the recording or the time
   double block_wobble_deg = 1.0;
 };
 
@@ -42,7 +43,7 @@ class HarvesterStep : public Step {
   }
   void declare(ConfigSchema& schema) override;
   Result<void> validate() const override;
-  CollectOptions wants(const BoardOptions&) const override { return {}; }
+  CollectOptions wants(const BoardOptions&) const override;
   std::string coverage(const Session& so_far, const BoardOptions&) const override;
   Result<Outcome> run(const Session& session, const BoardOptions&, const Calibration& before) const override;
 

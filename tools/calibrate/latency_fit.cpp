@@ -9,7 +9,6 @@
 #include "tools/calibrate/board_pose.hpp"
 #include "tools/calibrate/least_squares.hpp"
 #include "tools/calibrate/rotation_vector.hpp"
-#include "tools/calibrate/turn_correlation.hpp"
 #include "tools/calibrate/verdict.hpp"
 
 namespace linescope::calibrate {
@@ -308,6 +307,7 @@ Result<LatencyFit> fit_latency(const std::vector<TimedBoardView>& views, const s
   const PoseTrack track(poses);
   const auto peak = coarse(turns, track, options);
   if (!peak) return tl::unexpected(peak.error());
+  result.turns = turns;
   result.coarse_ms = peak->shift_ms;
   result.correlation = peak->height;
   keep_covered(seen, track, result.coarse_ms);

@@ -16,11 +16,13 @@
 #include "common/pose_sample.hpp"
 #include "common/result.hpp"
 #include "tools/calibrate/board.hpp"
+#include "tools/calibrate/turn_correlation.hpp"
 
 namespace linescope::calibrate {
 
 struct LatencyOptions {
   int least_pictures = 90;          ///< with the board, close enough in time to a neighbour; 20 .. 100000
+  int most_pictures = 0;            ///< collecting ends with so many with the board; 0: no limit; 0 .. 100000
   double range_ms = 200;            ///< searched from -range to +range; 10 .. 1000
   double least_turn_deg_per_s = 3;  ///< RMS speed of turning; 0.1 .. 1000
   double least_correlation = 0.9;   ///< 0.5 .. 0.999
@@ -47,6 +49,7 @@ struct LatencyFit {
   Rigid<Endoscope, CameraCv> endoscope_from_camera;  ///< as the motion shows it: for comparison only
   std::vector<std::string> names;                    ///< pictures looked at
   std::vector<double> error_px;                      ///< per picture of `names`, with the final values
+  std::vector<TurnOver> turns;                       ///< of the camera between pictures, what is correlated
   std::vector<bool> used;  ///< in the fit; the others are those without poses on both sides
 };
 

@@ -17,4 +17,18 @@ CollectOptions PictureKeys::wants(const BoardOptions& board) const {
   return wanted;
 }
 
+void LineKeys::declare(ConfigSchema& schema, const std::string& section) {
+  schema.choice(section + ".colour", line.colour,
+                {{"green", LaserColour::green},
+                 {"red", LaserColour::red},
+                 {"blue", LaserColour::blue},
+                 {"cyan", LaserColour::cyan},
+                 {"violet", LaserColour::violet},
+                 {"yellow", LaserColour::yellow},
+                 {"mono", LaserColour::mono}},
+                "Colour of the laser; mono: the picture has none.");
+  schema.choice(section + ".axis", line.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
+                "column: the line runs from left to right; row: from top to bottom.");
+}
+
 }  // namespace linescope::calibrate

@@ -1,5 +1,5 @@
-// How many pictures a step takes from a recording or a living camera: the keys that camera, laser and
-// hand-eye have in common.
+// Keys that steps with pictures have in common: how many are taken from a recording or a living camera
+// (camera, laser, hand-eye), and what the laser's line looks like in them (laser, check).
 #pragma once
 
 #include <string>
@@ -17,6 +17,14 @@ struct PictureKeys {
   void declare(ConfigSchema& schema, const std::string& section, int fewest, const std::string& enough);
   /// Pictures of the board, at most so many.
   CollectOptions wants(const BoardOptions& board) const;
+};
+
+/// The line in the picture. Everything else about finding it is as in the daemon by default.
+struct LineKeys {
+  LineExtractorOptions line;
+
+  /// `section`.colour and `section`.axis.
+  void declare(ConfigSchema& schema, const std::string& section);
 };
 
 }  // namespace linescope::calibrate

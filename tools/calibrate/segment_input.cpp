@@ -73,6 +73,8 @@ class SegmentTracker final : public TrackerSource {
 
   Result<Pull> next(PoseSample& out) override {
     if (waiting_.empty()) fetch();
+    if (waiting_.empty())
+      if (auto ok = still_there(reader_); !ok) return tl::unexpected(ok.error());
     if (waiting_.empty()) return Pull::nothing_yet;
     out = waiting_.front();
     waiting_.pop_front();

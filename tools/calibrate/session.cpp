@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "acquire/laser/line_extractor.hpp"
 #include "tools/calibrate/content_hash.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 /// A stepped tracker is read this far beyond the picture, so that every picture has a pose on both sides.
 constexpr Nanoseconds kPosesAhead = kSecond;
+constexpr auto kNap = std::chrono::milliseconds(5);
 
 /// One run through an input.
 class Collector {
@@ -26,7 +29,7 @@ class Collector {
 
   Result<Session> run(const Progress& progress) {
     if (auto ok = start(); !ok) return tl::unexpected(ok.error());
-    if (auto ok = input_.camera ? pictures(progress) : poses_only(progress); !ok)
+    if (auto ok = wants_pictures() ? pictures(progress) : poses_only(progress); !ok)
       return tl::unexpected(ok.error());
     for (const auto& samples : session_.poses) add_to_hash(samples);
     session_.hash = hash_.value();
@@ -37,7 +40,7 @@ class Collector {
   Result<void> start() {
     if (!input_.camera && !input_.tracker)
       return fail(ErrorCode::usage, "neither pictures nor poses were given");
-    if (input_.camera)
+    if (wants_pictures())
       if (auto ok = input_.camera->start(); !ok) return ok;
     if (input_.tracker)
       if (auto ok = input_.tracker->start(); !ok) return ok;
@@ -45,6 +48,12 @@ class Collector {
     return {};
   }
 
+  bool wants_pictures() const { return input_.camera && !(options_.poses_only && input_.tracker); }
+  bool enough_poses() const {
+    const int station = session_.stations.harvester;
+    return options_.most_poses > 0 && station >= 0 &&
+           session_.poses.at(static_cast<std::size_t>(station)).size() >= options_.most_poses;
+  }
   bool time_is_over() const { return options_.longest > 0 && monotonic_now() - began_ > options_.longest; }
   bool enough() const {
     return options_.most_pictures > 0 && session_.observations.size() >= options_.most_pictures;
@@ -73,11 +82,13 @@ class Collector {
 
   Result<void> poses_only(const Progress& progress) {
     frame_ = {};
-    while (!time_is_over()) {
+    while (!time_is_over() && !enough_poses()) {
       auto pulled = next_pose();
       if (!pulled) return tl::unexpected(pulled.error());
       if (*pulled == Pull::end) break;
-      if (*pulled == Pull::nothing_yet && progress && !progress(session_, frame_)) break;
+      if (*pulled == Pull::item) continue;
+      if (progress && !progress(session_, frame_)) break;
+      if (input_.tracker->live()) std::this_thread::sleep_for(kNap);
     }
     const bool any = std::any_of(session_.poses.begin(), session_.poses.end(),
                                  [](const auto& samples) { return !samples.empty(); });

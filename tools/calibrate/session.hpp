@@ -49,6 +49,8 @@ struct CollectOptions {
   std::optional<LineExtractorOptions> line;  ///< look for the laser line
   Nanoseconds every = 0;  ///< pictures closer in time to the last one looked at are passed over; 0: all
   std::size_t most_pictures = 0;  ///< stop after so many pictures with what was looked for; 0: no limit
+  bool poses_only = false;        ///< no picture is asked for, so that a camera may be missing
+  std::size_t most_poses = 0;     ///< poses_only: stop after so many of the harvester's station; 0: no limit
   Nanoseconds longest = 0;        ///< live: stop after this time; 0: no limit
 };
 

@@ -115,17 +115,23 @@ Vector3d middle_of(const ScanLine& line) {
   return sum / static_cast<double>(std::max<std::size_t>(1, line.size()));
 }
 
-/// How far each line lies along the way of the scan.
-std::vector<double> way_of(const std::vector<ScanLine>& lines) {
+/// The way of the scan: a straight line through the middles of the laser lines.
+struct Way {
+  Vector3d mean{0, 0, 0}, along{1, 0, 0};
+  std::vector<double> of_line;  ///< how far each line lies along it
+};
+
+Way way_of(const std::vector<ScanLine>& lines) {
   Points3 middles;
   for (const ScanLine& line : lines) middles.push_back(middle_of(line));
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : middles) mean += p / static_cast<double>(middles.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Vector3d& p : middles) scatter += (p - mean) * (p - mean).transpose();
-  const Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(2);
-  std::vector<double> way;
-  for (const Vector3d& p : middles) way.push_back((p - mean).dot(along));
+  Way way;
+  way.mean = mean;
+  way.along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(2);
+  for (const Vector3d& p : middles) way.of_line.push_back((p - mean).dot(way.along));
   return way;
 }
 
@@ -176,6 +182,37 @@ double sagitta(const std::vector<ScanLine>& lines, const std::vector<double>& wa
   }
   const auto parabola = fitted_parabola(profile);
   return parabola ? parabola->a * std::pow(0.5 * range_of(way), 2) : 0;
+}
+
+double mean_distance(const Body& body, const ScanLine& line) {
+  double sum = 0;
+  for (const Vector3d& p : line) sum += body.distance(p);
+  return line.empty() ? 0 : sum / static_cast<double>(line.size());
+}
+
+/// Along the laser lines, across the way of the scan.
+Vector3d across_of(const std::vector<ScanLine>& lines, const Way& way) {
+  Vector3d sum = Vector3d::Zero();
+  for (const ScanLine& line : lines) {
+    const Vector3d ends = line.back() - line.front();
+    sum += sum.dot(ends) < 0 ? Vector3d(-ends) : ends;
+  }
+  sum -= sum.dot(way.along) * way.along;
+  return sum.norm() > 0 ? sum.normalized() : way.along.unitOrthogonal();
+}
+
+void tell_residuals(ShapeCheck& check, const std::vector<ScanLine>& lines, const Way& way, const Body& body) {
+  const Vector3d across = across_of(lines, way);
+  const std::size_t step = check.points / kPointsForFit + 1;
+  std::size_t i = 0;
+  for (const ScanLine& line : lines) {
+    check.line_error_mm.push_back(rms_distance(body, line));
+    check.line_mean_mm.push_back(mean_distance(body, line));
+    for (const Vector3d& p : line)
+      if (i++ % step == 0)
+        check.residuals.push_back(
+            {(p - way.mean).dot(way.along), (p - way.mean).dot(across), body.distance(p)});
+  }
 }
 
 Points3 points_of(const std::vector<ScanLine>& lines, const std::function<bool(std::size_t)>& take) {
@@ -250,7 +287,7 @@ Result<void> validate(const ShapeCheckOptions& o) {
 std::vector<std::size_t> passes_of(const std::vector<ScanLine>& lines) {
   std::vector<std::size_t> pass(lines.size(), 0);
   if (lines.empty()) return pass;
-  const std::vector<double> way = way_of(lines);
+  const std::vector<double> way = way_of(lines).of_line;
   const double turn = kTurnShare * range_of(way);
   std::size_t farthest = 0;
   int heading = 0;
@@ -275,9 +312,11 @@ Result<ShapeCheck> check_shape(const std::vector<ScanLine>& all_lines, const Sha
   ShapeCheck check;
   check.lines = lines.size();
   if (auto enough = enough_lines(check, options); !enough) return tl::unexpected(enough.error());
-  const auto way = way_of(lines);
+  const Way way = way_of(lines);
   const auto pass = passes_of(lines);
-  check.extent_mm = range_of(way);
+  check.line_way_mm = way.of_line;
+  check.line_pass = pass;
+  check.extent_mm = range_of(way.of_line);
   check.passes = pass.back() + 1;
   if (auto varied = enough_variation(check, options); !varied) return tl::unexpected(varied.error());
   const Points3 everything = points_of(lines, [](std::size_t) { return true; });
@@ -291,11 +330,11 @@ Result<ShapeCheck> check_shape(const std::vector<ScanLine>& all_lines, const Sha
   }
   const Body body = known_body(*free, some, options.diameter_mm);
   check.diameter_mm = free->diameter;
-  check.bias_mm =
-      options.shape == Shape::plane ? sagitta(lines, way, body) : free->diameter - options.diameter_mm;
+  check.bias_mm = options.shape == Shape::plane ? sagitta(lines, way.of_line, body)
+                                                : free->diameter - options.diameter_mm;
   check.precision_mm = deviation_about(body, everything);
   check.repeatability_mm = deviation_of_passes(body, lines, pass, check.passes);
-  for (const ScanLine& line : lines) check.line_error_mm.push_back(rms_distance(body, line));
+  tell_residuals(check, lines, way, body);
   hold_out(check, lines, *free, options.diameter_mm);
   return check;
 }

@@ -26,6 +26,12 @@ Result<void> validate(const ShapeCheckOptions& options);
 /// Points of one laser line, in the order of the scan.
 using ScanLine = std::vector<Eigen::Vector3d>;
 
+/// One scanned point against the body of known size.
+struct ShapeResidual {
+  double along = 0, across = 0;  ///< mm, on the patch: along the scan, along the laser line
+  double distance = 0;           ///< mm, positive outside
+};
+
 struct ShapeCheck {
   /// Systematic error of the size: fitted less true diameter; of a plane, by how much the scanned patch
   /// bulges (its sagitta along the scan).
@@ -39,7 +45,10 @@ struct ShapeCheck {
   std::size_t lines = 0, points = 0, held_out_points = 0;
   std::size_t passes = 0;
   double extent_mm = 0;
-  std::vector<double> line_error_mm;  ///< RMS per line; lines without points have 0
+  /// Per line: RMS distance, mean distance, way along the scan, number of the pass.
+  std::vector<double> line_error_mm, line_mean_mm, line_way_mm;
+  std::vector<std::size_t> line_pass;
+  std::vector<ShapeResidual> residuals;  ///< some thousand of the points, evenly spread
 };
 
 /// Refuses (verdict.hpp): too few lines; too little variation (a patch too narrow for its size to be known, a

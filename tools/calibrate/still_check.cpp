@@ -77,6 +77,8 @@ StillStation figures_of(Stretch stretch, int station) {
   const Eigen::Quaterniond attitude = mean_attitude(stretch);
   double mm = 0, rad = 0;
   for (const PoseSample& s : stretch) {
+    f.course.push_back(
+        {seconds_from(s.time - stretch.front().time), s.world_from_sensor.translation() - place});
     mm += (s.world_from_sensor.translation() - place).squaredNorm();
     rad += std::pow(attitude.angularDistance(s.world_from_sensor.rotation()), 2);
   }

@@ -18,12 +18,18 @@ struct StillOptions {
 };
 Result<void> validate(const StillOptions& options);
 
+struct RestSample {
+  double seconds = 0;               ///< since the stretch began
+  Eigen::Vector3d off_mm{0, 0, 0};  ///< from the mean place
+};
+
 struct StillStation {
   int station = 0;  ///< 0-based
   double seconds = 0;
   std::size_t samples = 0;
   double jitter_mm = 0, jitter_deg = 0, drift_mm = 0;
-  double distortion = 0;  ///< NaN: the tracker gives none
+  double distortion = 0;           ///< NaN: the tracker gives none
+  std::vector<RestSample> course;  ///< of the whole stretch
 };
 
 /// The longest stretch in which the station moved no further than 2 mm and 1 degree from where the stretch

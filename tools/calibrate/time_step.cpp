@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "tools/calibrate/camera_match.hpp"
+#include "tools/calibrate/tool_plots.hpp"
+
 namespace linescope::calibrate {
 namespace {
 
@@ -47,6 +50,8 @@ void TimeStep::declare(ConfigSchema& schema) {
   schema.section("time", "Latency of the camera on the tracker's clock.");
   schema.integer("time.least_pictures", o.least_pictures, {.min = 20, .max = 100000},
                  "Pictures with the board that are needed.");
+  schema.integer("time.most_pictures", o.most_pictures, {.min = 0, .max = 100000},
+                 "Enough pictures with the board; 0: until --seconds are over or the recording ends.");
   schema.number("time.range_ms", o.range_ms, {.unit = "ms", .min = 10, .max = 1000},
                 "Latencies are looked for up to this, to both sides.");
   schema.number("time.least_turn_deg_per_s", o.least_turn_deg_per_s,
@@ -62,6 +67,7 @@ void TimeStep::declare(ConfigSchema& schema) {
 CollectOptions TimeStep::wants(const BoardOptions& board) const {
   CollectOptions wanted;
   wanted.board = board;
+  wanted.most_pictures = static_cast<std::size_t>(options_.most_pictures);
   return wanted;
 }
 
@@ -71,6 +77,7 @@ std::string TimeStep::coverage(const Session& so_far, const BoardOptions&) const
 
 Result<Outcome> TimeStep::run(const Session& session, const BoardOptions& board,
                               const Calibration& before) const {
+  if (auto ok = fits_camera(session, before.camera); !ok) return tl::unexpected(ok.error());
   const auto fit = fit_latency(views_of(session), endoscope_poses(session), board, before, options_);
   if (!fit) return tl::unexpected(fit.error());
   Outcome outcome;
@@ -79,6 +86,7 @@ Result<Outcome> TimeStep::run(const Session& session, const BoardOptions& board,
       "picture";
   outcome.quality = quality_of(*fit, session, before);
   if (auto ok = above_limit(*fit, options_); !ok) outcome.refused = ok.error();
+  outcome.plots.push_back(plot_latency(*fit, endoscope_poses(session)));
   outcome.put = [latency = fit->latency](Calibration& c) {
     const std::string previous = fmt::format("{:.3f} ms", milliseconds_from(c.camera_latency));
     c.camera_latency = latency;
