@@ -20,6 +20,13 @@ struct LeftOutError {
   std::vector<Sheet> without;       ///< the fit that lacks picture i
 };
 
+struct Errors {
+  LeftOutError plane, quadratic, cubic;
+  const LeftOutError& of(SheetForm form) const {
+    return form == SheetForm::plane ? plane : form == SheetForm::quadratic ? quadratic : cubic;
+  }
+};
+
 class LaserFitter {
  public:
   LaserFitter(const Session& session, const BoardOptions& board, const CameraModel& camera,
@@ -35,7 +42,7 @@ class LaserFitter {
   std::vector<const LaserPicture*> pictures() const;
   LeftOutError leave_one_out(SheetForm form) const;
   Result<Sheet> fit(SheetForm form, std::vector<std::vector<bool>>& inliers) const;
-  void choose_model(const LeftOutError& plane, const LeftOutError& bent);
+  void choose_form(const Errors& errors);
   void describe(const Sheet& plane, const std::vector<std::vector<bool>>& inliers,
                 const LeftOutError& plane_error, const LeftOutError& chosen);
   void judge(double worst_sd);
@@ -166,23 +173,28 @@ LeftOutError LaserFitter::leave_one_out(SheetForm form) const {
   return result;
 }
 
-/// Bent when the pictures it has not seen agree with it better, by more than the scatter of that difference.
-void LaserFitter::choose_model(const LeftOutError& plane, const LeftOutError& bent) {
-  fit_.form = options_.model == LaserModel::bent ? SheetForm::bent : SheetForm::plane;
-  if (!std::isfinite(bent.rms)) {
-    fit_.form = SheetForm::plane;
-    return;
-  }
-  fit_.plane_loss_mm = plane.rms - bent.rms;
-  if (options_.model != LaserModel::automatic) return;
-  const auto n = static_cast<double>(plane.per_picture.size());
+/// Agrees with the pictures it has not seen better than the simpler form, by more than the scatter of that
+/// difference.
+bool better(const LeftOutError& bent, const LeftOutError& simpler) {
+  if (!std::isfinite(bent.rms)) return false;
+  const auto n = static_cast<double>(simpler.per_picture.size());
   double mean = 0, squares = 0;
-  for (std::size_t i = 0; i < plane.per_picture.size(); ++i)
-    mean += (plane.per_picture[i] - bent.per_picture[i]) / n;
-  for (std::size_t i = 0; i < plane.per_picture.size(); ++i)
-    squares += std::pow(plane.per_picture[i] - bent.per_picture[i] - mean, 2);
+  for (std::size_t i = 0; i < simpler.per_picture.size(); ++i)
+    mean += (simpler.per_picture[i] - bent.per_picture[i]) / n;
+  for (std::size_t i = 0; i < simpler.per_picture.size(); ++i)
+    squares += std::pow(simpler.per_picture[i] - bent.per_picture[i] - mean, 2);
   const double error_of_mean = std::sqrt(squares / (n * (n - 1)));
-  if (mean > 2 * error_of_mean && bent.rms < 0.95 * plane.rms) fit_.form = SheetForm::bent;
+  return mean > 2 * error_of_mean && bent.rms < 0.95 * simpler.rms;
+}
+
+/// From the simplest form on, each step must pay.
+void LaserFitter::choose_form(const Errors& errors) {
+  fit_.form = SheetForm::plane;
+  if (options_.model == LaserModel::plane) return;
+  const bool asked_for = options_.model == LaserModel::bent && std::isfinite(errors.quadratic.rms);
+  if (asked_for || better(errors.quadratic, errors.plane)) fit_.form = SheetForm::quadratic;
+  if (better(errors.cubic, errors.of(fit_.form))) fit_.form = SheetForm::cubic;
+  fit_.plane_loss_mm = errors.plane.rms - errors.of(fit_.form).rms;
 }
 
 void LaserFitter::describe(const Sheet& plane, const std::vector<std::vector<bool>>& inliers,
@@ -215,11 +227,32 @@ void LaserFitter::describe(const Sheet& plane, const std::vector<std::vector<boo
   q.spread = {{"nearest", least, kUnknown, "mm"}, {"farthest", most, kUnknown, "mm"}};
 }
 
+/// What the noise of the corners alone makes of the distances, mm RMS.
+double board_part(const Sheet& sheet, const std::vector<LaserPicture>& pictures) {
+  double sum = 0, count = 0;
+  for (const LaserPicture& picture : pictures) {
+    for (const LaserPoint& p : picture.points) {
+      LaserPoint moved = p;
+      moved.inverse_depth = 1 / (1 / p.inverse_depth + p.board_sd);
+      sum += std::pow(sheet.distance(moved) - sheet.distance(p), 2);
+      ++count;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
 void LaserFitter::judge(double worst_sd) {
   const Quality& q = fit_.quality;
   const auto refuse = [&](const std::string& sentence, std::string_view advice) {
     if (!fit_.refused) fit_.refused = refusal(Refusal::error_above_limit, sentence, advice);
   };
+  const double from_corners = board_part(fit_.sheet, fit_.pictures);
+  if (q.residual > options_.max_residual_mm && from_corners > q.residual / 2)
+    refuse(
+        fmt::format("residual {:.3f} mm, {:g} mm are allowed; the line lies so far beside the corners that "
+                    "their noise alone makes {:.3f} mm of it",
+                    q.residual, options_.max_residual_mm, from_corners),
+        "Let the line cross the pattern, or keep it close to it");
   if (q.residual > options_.max_residual_mm)
     refuse(fmt::format("residual {:.3f} mm, {:g} mm are allowed", q.residual, options_.max_residual_mm),
            "Is the camera calibrated for this picture size, the board flat, the exposure short enough?");
@@ -252,27 +285,33 @@ double worst_deviation(const std::vector<LaserPicture>& pictures, const std::vec
   return worst;
 }
 
+std::string remark_on(const Errors& e) {
+  std::string text = fmt::format("Error on pictures that were in no fit: plane {:.3f} mm", e.plane.rms);
+  if (std::isfinite(e.quadratic.rms)) text += fmt::format(", bent surface {:.3f} mm", e.quadratic.rms);
+  if (std::isfinite(e.cubic.rms)) text += fmt::format(", with cubic terms {:.3f} mm", e.cubic.rms);
+  return text + ".";
+}
+
 Result<LaserFit> LaserFitter::run() {
   if (auto ok = choose_pictures(); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_depths(); !ok) return tl::unexpected(ok.error());
   drop_outlying_pictures();
-  const LeftOutError plane = leave_one_out(SheetForm::plane);
-  const LeftOutError bent = leave_one_out(SheetForm::bent);
-  choose_model(plane, bent);
+  Errors errors{leave_one_out(SheetForm::plane), {}, {}};
+  if (options_.model != LaserModel::plane) {
+    errors.quadratic = leave_one_out(SheetForm::quadratic);
+    errors.cubic = leave_one_out(SheetForm::cubic);
+  }
+  choose_form(errors);
   std::vector<std::vector<bool>> inliers;
   const auto flat = fit(SheetForm::plane, inliers);
   if (!flat) return tl::unexpected(flat.error());
   const auto sheet = fit_.form == SheetForm::plane ? flat : fit(fit_.form, inliers);
   if (!sheet) return tl::unexpected(sheet.error());
   fit_.sheet = *sheet;
-  const LeftOutError& chosen = fit_.form == SheetForm::plane ? plane : bent;
-  describe(*flat, inliers, plane, chosen);
-  const double worst_sd = worst_deviation(fit_.pictures, chosen.without);
+  describe(*flat, inliers, errors.plane, errors.of(fit_.form));
+  const double worst_sd = worst_deviation(fit_.pictures, errors.of(fit_.form).without);
   fit_.quality.parameters.push_back({"surface within these depths", 0, worst_sd, "mm"});
-  if (std::isfinite(bent.rms))
-    fit_.quality.remarks.push_back(
-        fmt::format("Error on pictures that were in no fit: plane {:.3f} mm, bent surface {:.3f} mm.",
-                    plane.rms, bent.rms));
+  fit_.quality.remarks.push_back(remark_on(errors));
   judge(worst_sd);
   return std::move(fit_);
 }
@@ -284,12 +323,6 @@ Result<void> validate(const LaserFitOptions& o) {
     return fail(ErrorCode::invalid,
                 fmt::format("laser.min_pictures = {}: a surface needs at least 3 pictures", o.min_pictures));
   return {};
-}
-
-LaserPlane plane_of(const Sheet& sheet) {
-  // 1/z = c . (x, y, 1) is c . p = 1.
-  const Eigen::Vector3d c = sheet.c.head<3>();
-  return laser_plane_from_opencv({c.x(), c.y(), c.z(), -1}).value_or(LaserPlane{});
 }
 
 Result<LaserFit> fit_laser(const Session& session, const BoardOptions& board, const CameraModel& camera,

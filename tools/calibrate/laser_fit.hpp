@@ -1,5 +1,5 @@
-// The laser's surface from pictures of its line on a board: a plane, and the bent form beside it when the
-// pictures that were left out say that it is closer to the truth.
+// The laser's surface from pictures of its line on a board: a plane, or a bent form when the pictures that
+// were left out say that it is closer to the truth.
 #pragma once
 
 #include "common/laser_plane.hpp"
@@ -12,7 +12,7 @@ namespace linescope::calibrate {
 enum class LaserModel {
   automatic,  ///< bent when its held-out error is lower by more than chance
   plane,
-  bent,
+  bent,  ///< always; with cubic terms when these lower the held-out error by more than chance
 };
 
 struct LaserFitOptions {
@@ -30,11 +30,11 @@ struct LaserFitOptions {
 Result<void> validate(const LaserFitOptions& options);
 
 struct LaserFit {
-  LaserPlane plane;  ///< the best plane, whatever the model
-  Sheet sheet;       ///< the model chosen
+  LaserPlane plane;  ///< the best plane, whatever the form
+  Sheet sheet;       ///< in the form chosen
   SheetForm form = SheetForm::plane;
   double plane_loss_mm =
-      0;            ///< held-out RMS of the plane less that of the bent form; positive: the plane loses
+      0;            ///< held-out RMS of the plane less that of the form chosen; positive: the plane loses
   Quality quality;  ///< mm
   std::optional<Error> refused;
   std::vector<LaserPicture> pictures;  ///< in the fit
@@ -43,8 +43,5 @@ struct LaserFit {
 /// `camera`: as calibrated, for the same pictures' size.
 Result<LaserFit> fit_laser(const Session& session, const BoardOptions& board, const CameraModel& camera,
                            const LaserFitOptions& options);
-
-/// A plane sheet in the product's form.
-LaserPlane plane_of(const Sheet& sheet);
 
 }  // namespace linescope::calibrate

@@ -9,11 +9,18 @@
 namespace linescope::calibrate {
 namespace {
 
-std::string text_of(const LaserPlane& plane) {
+std::string text_of(const LaserPlane& plane, const LaserBend& bend) {
   const BaselineForm form = baseline_form(plane);
   const Eigen::Vector4d n = opencv_from_laser_plane(plane);
-  return fmt::format("n {:.6f} {:.6f} {:.6f} d {:.5f} (b {:.4f} mm, alpha {:.4f} deg)", n(0), n(1), n(2),
-                     n(3), form.baseline_mm, degrees_from_radians(form.alpha_rad));
+  std::string text = fmt::format("n {:.6f} {:.6f} {:.6f} d {:.5f} (b {:.4f} mm, alpha {:.4f} deg)", n(0),
+                                 n(1), n(2), n(3), form.baseline_mm, degrees_from_radians(form.alpha_rad));
+  if (!bend.flat()) text += fmt::format(", bend {:.6g} /mm", fmt::join(turned_over(bend).b, " "));
+  return text;
+}
+
+std::string_view method_of(SheetForm form) {
+  if (form == SheetForm::plane) return "robust plane";
+  return form == SheetForm::quadratic ? "robust bent surface" : "robust bent surface with cubic terms";
 }
 
 class LaserStep final : public Step {
@@ -23,14 +30,7 @@ class LaserStep final : public Step {
 
   void declare(ConfigSchema& schema) override {
     schema.section("laser", "The laser's surface from its line on the board.");
-    schema.choice("laser.colour", line_.colour,
-                  {{"green", LaserColour::green},
-                   {"red", LaserColour::red},
-                   {"blue", LaserColour::blue},
-                   {"mono", LaserColour::mono}},
-                  "Colour of the laser; mono: the picture has none.");
-    schema.choice("laser.axis", line_.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
-                  "column: the line runs from left to right; row: from top to bottom.");
+    keys_.declare(schema, "laser");
     schema.choice(
         "laser.model", o_.model,
         {{"automatic", LaserModel::automatic}, {"plane", LaserModel::plane}, {"bent", LaserModel::bent}},
@@ -57,7 +57,7 @@ class LaserStep final : public Step {
 
   CollectOptions wants(const BoardOptions& board) const override {
     CollectOptions wanted = pictures_.wants(board);
-    wanted.line = line_;
+    wanted.line = keys_.line;
     return wanted;
   }
 
@@ -76,7 +76,7 @@ class LaserStep final : public Step {
           fmt::format("the pictures are {}x{}, the camera was calibrated at {}x{}: run the camera step first",
                       session.width, session.height, before.camera.width, before.camera.height));
     LaserFitOptions options = o_;
-    options.points.axis = line_.axis;
+    options.points.axis = keys_.line.axis;
     auto fit = fit_laser(session, board, before.camera, options);
     if (!fit) return tl::unexpected(fit.error());
     return outcome_of(*fit, before);
@@ -86,27 +86,26 @@ class LaserStep final : public Step {
   static Outcome outcome_of(const LaserFit& fit, const Calibration& before) {
     Outcome out;
     out.quality = fit.quality;
-    out.method = fit.form == SheetForm::plane ? "robust plane" : "robust bent surface";
+    out.method = method_of(fit.form);
     out.refused = fit.refused;
     out.put = [fit](Calibration& c) {
-      std::string previous = text_of(c.laser);
-      c.laser = fit.plane;
+      std::string previous = text_of(c.laser, c.laser_bend);
+      c.laser = plane_of(fit.sheet);
+      c.laser_bend = bend_of(fit.sheet);
       return previous;
     };
-    if (fit.form == SheetForm::bent)
+    if (fit.form != SheetForm::plane)
       out.quality.remarks.push_back(fmt::format(
-          "The surface is bent. The best plane is stored, which loses {:.3f} mm of the error on pictures "
-          "that were in no fit.",
+          "The surface is bent and stored so: the best plane, whose b, alpha and tilt stand above, "
+          "would lose {:.3f} mm.",
           fit.plane_loss_mm));
     out.plots.push_back({"laser-residuals", plot_laser_errors(fit.pictures, fit.sheet)});
-    Sheet old;
-    old.c.head<3>() =
-        -opencv_from_laser_plane(before.laser).head<3>() / opencv_from_laser_plane(before.laser)(3);
-    out.plots.push_back({"laser-residuals-before", plot_laser_errors(fit.pictures, old)});
+    out.plots.push_back({"laser-residuals-before",
+                         plot_laser_errors(fit.pictures, sheet_of(before.laser, before.laser_bend))});
     return out;
   }
 
-  LineExtractorOptions line_;
+  LineKeys keys_;
   LaserFitOptions o_;
   PictureKeys pictures_;
 };

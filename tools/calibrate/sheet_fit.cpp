@@ -12,20 +12,20 @@
 namespace linescope::calibrate {
 namespace {
 
-using Row = Eigen::Matrix<double, 6, 1>;
+/// As many as the form has, without going to the heap for every point.
+using SomeTerms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 10, 1>;
+using SquareOfTerms = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10>;
 
-Row row_of(const LaserPoint& p) {
-  Row row;
-  row << p.x, p.y, 1, p.x * p.x, p.x * p.y, p.y * p.y;
-  return row;
+SheetTerms terms_of(double x, double y) {
+  SheetTerms terms;
+  terms << x, y, 1, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+  return terms;
 }
 
 /// Change of the misfit in 1/z for one pixel along the profile: the surface's 1/z changes and the board's
 /// does.
 double per_pixel(const Sheet& sheet, const LaserPoint& p) {
-  const double dx = sheet.c(0) + 2 * sheet.c(3) * p.x + sheet.c(4) * p.y;
-  const double dy = sheet.c(1) + 2 * sheet.c(5) * p.y + sheet.c(4) * p.x;
-  return dx * p.step.x() + dy * p.step.y() - p.inverse_step;
+  return sheet.slope(p.x, p.y).dot(p.step) - p.inverse_step;
 }
 
 std::vector<const LaserPoint*> all_points(const std::vector<const LaserPicture*>& pictures) {
@@ -88,17 +88,17 @@ Eigen::VectorXd weights_for(const Sheet& sheet, const std::vector<const LaserPoi
 /// Least squares in pixels with the given weights; false: the points fix no surface.
 bool improve(Sheet& sheet, const std::vector<const LaserPoint*>& points, const Eigen::VectorXd& weights,
              int coefficients) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(coefficients, coefficients);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(coefficients);
+  SquareOfTerms normal = SquareOfTerms::Zero(coefficients, coefficients);
+  SomeTerms right = SomeTerms::Zero(coefficients);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double slope = per_pixel(sheet, *points[i]);
     const double w = weights(static_cast<Eigen::Index>(i)) / std::max(slope * slope, 1e-18);
-    const Eigen::VectorXd row = row_of(*points[i]).head(coefficients);
+    const SomeTerms row = terms_of(points[i]->x, points[i]->y).head(coefficients);
     normal.noalias() += w * row * row.transpose();
     right.noalias() += w * points[i]->inverse_depth * row;
   }
-  const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scale.asDiagonal() * normal * scale.asDiagonal());
+  const SomeTerms scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::FullPivLU<SquareOfTerms> lu(scale.asDiagonal() * normal * scale.asDiagonal());
   if (lu.rcond() < 1e-14) return false;
   sheet.c.setZero();
   sheet.c.head(coefficients) = scale.asDiagonal() * lu.solve(scale.asDiagonal() * right);
@@ -107,10 +107,21 @@ bool improve(Sheet& sheet, const std::vector<const LaserPoint*>& points, const E
 
 }  // namespace
 
+double Sheet::inverse_depth(double x, double y) const {
+  return c.dot(terms_of(x, y));
+}
+
+Eigen::Vector2d Sheet::slope(double x, double y) const {
+  SheetTerms by_x, by_y;
+  by_x << 1, 0, 0, 2 * x, y, 0, 3 * x * x, 2 * x * y, y * y, 0;
+  by_y << 0, 1, 0, 0, x, 2 * y, 0, x * x, 2 * x * y, 3 * y * y;
+  return {c.dot(by_x), c.dot(by_y)};
+}
+
 double Sheet::distance(const LaserPoint& p) const {
   const double q = inverse_depth(p.x, p.y);
-  const double qx = c(0) + 2 * c(3) * p.x + c(4) * p.y, qy = c(1) + 2 * c(5) * p.y + c(4) * p.x;
-  const Eigen::Vector3d gradient(qx, qy, q - p.x * qx - p.y * qy);
+  const Eigen::Vector2d by = slope(p.x, p.y);
+  const Eigen::Vector3d gradient(by.x(), by.y(), q - p.x * by.x() - p.y * by.y());
   return (q / p.inverse_depth - 1) / gradient.norm();
 }
 
@@ -127,7 +138,7 @@ std::optional<Sheet> fit_sheet(const std::vector<const LaserPicture*>& pictures,
   Eigen::VectorXd weights;
   for (int round = 0; round < 15; ++round) {
     weights = weights_for(*sheet, points, options.inlier_px);
-    // The first rounds as a plane: the bent form must not begin by bending towards outliers.
+    // The first rounds as a plane: a bent form must not begin by bending towards outliers.
     if (!improve(*sheet, points, weights, round < 4 ? 3 : static_cast<int>(form))) return std::nullopt;
   }
   if (!inliers) return sheet;
@@ -137,6 +148,26 @@ std::optional<Sheet> fit_sheet(const std::vector<const LaserPicture*>& pictures,
     auto& flags = inliers->emplace_back();
     for (std::size_t k = 0; k < picture->points.size(); ++k) flags.push_back(weights(i++) > 0);
   }
+  return sheet;
+}
+
+LaserPlane plane_of(const Sheet& sheet) {
+  // 1/z = c . (x, y, 1) is c . p = 1.
+  const Eigen::Vector3d c = sheet.c.head<3>();
+  return laser_plane_from_opencv({c.x(), c.y(), c.z(), -1}).value_or(LaserPlane{});
+}
+
+LaserBend bend_of(const Sheet& sheet) {
+  LaserBend bend;
+  for (std::size_t i = 0; i < LaserBend::kCubic; ++i) bend.b[i] = sheet.c(3 + static_cast<Eigen::Index>(i));
+  return turned_over(bend);
+}
+
+Sheet sheet_of(const LaserPlane& plane, const LaserBend& bend) {
+  Sheet sheet;
+  const Eigen::Vector4d n = opencv_from_laser_plane(plane);
+  sheet.c.head<3>() = -n.head<3>() / n(3);
+  sheet.c.tail<7>() = Eigen::Map<const Eigen::Matrix<double, 7, 1>>(turned_over(bend).b.data());
   return sheet;
 }
 

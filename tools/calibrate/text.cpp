@@ -46,14 +46,32 @@ std::string camera_text(const CameraModel& c) {
       2 * degrees_from_radians(std::atan(c.height / (2 * c.fy))), fmt::join(c.distortion, " "));
 }
 
-std::string laser_text(const LaserPlane& plane) {
+/// What the bend does at the edges of the picture, as depth beside the plane.
+std::string bend_text(const Calibration& c) {
+  if (c.laser_bend.flat()) return "";
+  const double x = c.camera.width / (2 * c.camera.fx), y = c.camera.height / (2 * c.camera.fy);
+  const auto change = [&](double right, double up) {
+    const auto plane = c.laser.depth_along(right, up);
+    const auto bent = depth_along(c.laser, c.laser_bend, right, up);
+    return plane && bent ? fmt::format("{:+.2f}", *bent - *plane) : std::string("--");
+  };
+  return fmt::format(
+      "    bent ({} terms): depth beside this plane {} mm left, {} right, {} above, {} below in the "
+      "picture\n",
+      c.laser_bend.terms() == LaserBend::kCubic ? "cubic" : "quadratic", change(-x, 0), change(x, 0),
+      change(0, y), change(0, -y));
+}
+
+std::string laser_text(const Calibration& c) {
+  const LaserPlane& plane = c.laser;
   const BaselineForm form = baseline_form(plane);
   std::string text =
       fmt::format("laser         b {:.3f} mm, alpha {:.3f} degrees, tilt {:.3f} degrees", form.baseline_mm,
                   degrees_from_radians(form.alpha_rad), degrees_from_radians(form.tilt_rad));
   const auto depth = plane.depth_along(0, 0);
   return text +
-         (depth ? fmt::format("; crosses the optical axis at {:.1f} mm\n", *depth) : std::string("\n"));
+         (depth ? fmt::format("; crosses the optical axis at {:.1f} mm\n", *depth) : std::string("\n")) +
+         bend_text(c);
 }
 
 std::string hand_eye_text(const Rigid<Endoscope, CameraCv>& t) {
@@ -88,7 +106,7 @@ std::string as_text(const Quality& q) {
 std::string as_text(const Calibration& c, const std::vector<Entry>& entries) {
   std::string text = fmt::format("{}\n\n", c.name);
   text += camera_text(c.camera) + origin(entries, "camera");
-  text += laser_text(c.laser) + origin(entries, "laser");
+  text += laser_text(c) + origin(entries, "laser");
   text += hand_eye_text(c.endoscope_from_camera) + origin(entries, "hand-eye");
   text += harvester_text(c.harvester) + origin(entries, "harvester");
   text += fmt::format("time          the pictures' time stamps are {:.3f} ms late\n",
