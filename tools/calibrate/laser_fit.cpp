@@ -227,32 +227,11 @@ void LaserFitter::describe(const Sheet& plane, const std::vector<std::vector<boo
   q.spread = {{"nearest", least, kUnknown, "mm"}, {"farthest", most, kUnknown, "mm"}};
 }
 
-/// What the noise of the corners alone makes of the distances, mm RMS.
-double board_part(const Sheet& sheet, const std::vector<LaserPicture>& pictures) {
-  double sum = 0, count = 0;
-  for (const LaserPicture& picture : pictures) {
-    for (const LaserPoint& p : picture.points) {
-      LaserPoint moved = p;
-      moved.inverse_depth = 1 / (1 / p.inverse_depth + p.board_sd);
-      sum += std::pow(sheet.distance(moved) - sheet.distance(p), 2);
-      ++count;
-    }
-  }
-  return std::sqrt(sum / count);
-}
-
 void LaserFitter::judge(double worst_sd) {
   const Quality& q = fit_.quality;
   const auto refuse = [&](const std::string& sentence, std::string_view advice) {
     if (!fit_.refused) fit_.refused = refusal(Refusal::error_above_limit, sentence, advice);
   };
-  const double from_corners = board_part(fit_.sheet, fit_.pictures);
-  if (q.residual > options_.max_residual_mm && from_corners > q.residual / 2)
-    refuse(
-        fmt::format("residual {:.3f} mm, {:g} mm are allowed; the line lies so far beside the corners that "
-                    "their noise alone makes {:.3f} mm of it",
-                    q.residual, options_.max_residual_mm, from_corners),
-        "Let the line cross the pattern, or keep it close to it");
   if (q.residual > options_.max_residual_mm)
     refuse(fmt::format("residual {:.3f} mm, {:g} mm are allowed", q.residual, options_.max_residual_mm),
            "Is the camera calibrated for this picture size, the board flat, the exposure short enough?");

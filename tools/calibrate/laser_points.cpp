@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "tools/calibrate/board_pose.hpp"
@@ -23,35 +21,9 @@ Eigen::Vector3d inverse_depth_of(const Rigid<CameraCv, Board>& camera_from_board
   return normal / normal.dot(camera_from_board.translation());
 }
 
-/// How well the corners fix the board's depth along a ray: the further from them, the worse.
-class BoardDepth {
- public:
-  BoardDepth(const Observation& seen, const BoardOptions& board, const CameraModel& camera,
-             const BoardPose& pose)
-      : normal_(pose.camera_from_board.rotate(Eigen::Vector3d::UnitZ())),
-        origin_(pose.camera_from_board.translation()) {
-    const double coordinates = 2 * static_cast<double>(seen.board.ids.size());
-    const double variance = pose.rms_px * pose.rms_px / 2 * coordinates / std::max(1.0, coordinates - 6);
-    covariance_ = variance * pose_covariance_per_px2(board, camera, seen.board, pose.camera_from_board);
-  }
-
-  double deviation_at(const Eigen::Vector3d& point) const {
-    Eigen::Matrix<double, 6, 1> by_pose;
-    by_pose << normal_.cross(origin_ - point), normal_;
-    by_pose *= point.z() / normal_.dot(point);
-    return std::sqrt(std::max(0.0, by_pose.dot(covariance_ * by_pose)));
-  }
-
- private:
-  Eigen::Vector3d normal_, origin_;
-  Eigen::Matrix<double, 6, 6> covariance_;
-};
-
 std::vector<LaserPoint> points_of(const Observation& seen, const BoardOptions& board,
                                   const CameraModel& camera, const LaserPointOptions& options,
-                                  const BoardPose& pose) {
-  const Rigid<CameraCv, Board>& camera_from_board = pose.camera_from_board;
-  const BoardDepth depth(seen, board, camera, pose);
+                                  const Rigid<CameraCv, Board>& camera_from_board) {
   const Eigen::Vector3d plane = inverse_depth_of(camera_from_board);
   const Rigid<Board, CameraCv> board_from_camera = camera_from_board.inverse();
   const Eigen::Vector2d along =
@@ -61,12 +33,10 @@ std::vector<LaserPoint> points_of(const Observation& seen, const BoardOptions& b
     const Eigen::Vector2d pixel(sample.u, sample.v);
     const Eigen::Vector2d ray = camera.normalised_from_pixel(pixel);
     const Eigen::Vector2d next = camera.normalised_from_pixel(pixel + along);
-    LaserPoint p{ray.x(), ray.y(), plane.dot(ray.homogeneous()), next - ray, 0, 0};
+    LaserPoint p{ray.x(), ray.y(), plane.dot(ray.homogeneous()), next - ray, 0};
     p.inverse_step = plane.head<2>().dot(p.step);
     if (!(p.inverse_depth > 0) || !p.step.allFinite()) continue;
-    if (!on_board(board, board_from_camera * p.position(), options.margin_squares)) continue;
-    p.board_sd = depth.deviation_at(p.position());
-    points.push_back(p);
+    if (on_board(board, board_from_camera * p.position(), options.margin_squares)) points.push_back(p);
   }
   return points;
 }
@@ -88,7 +58,8 @@ std::vector<LaserPicture> laser_points(const Session& session, const BoardOption
                                           : pose.error().message});
       continue;
     }
-    LaserPicture picture{seen.name, pose->camera_from_board, points_of(seen, board, camera, options, *pose)};
+    LaserPicture picture{seen.name, pose->camera_from_board,
+                         points_of(seen, board, camera, options, pose->camera_from_board)};
     if (static_cast<int>(picture.points.size()) < options.min_points)
       left_out.push_back(
           {seen.name, fmt::format("only {} points of the line lie on the board", picture.points.size())});

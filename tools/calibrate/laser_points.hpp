@@ -16,7 +16,6 @@ struct LaserPoint {
   double inverse_depth = 0;    ///< 1/z where the ray meets the board, 1/mm
   Eigen::Vector2d step{0, 0};  ///< change of the ray for one pixel along the profile
   double inverse_step = 0;     ///< change of the board's 1/z for that step, 1/mm
-  double board_sd = 0;         ///< standard deviation of the board's depth there, from its corners' noise, mm
 
   Eigen::Vector3d position() const { return Eigen::Vector3d(x, y, 1) / inverse_depth; }
 };
