@@ -5,6 +5,7 @@
 #include "tools/calibrate/optical_steps.hpp"
 #include "tools/calibrate/picture_keys.hpp"
 #include "tools/calibrate/plots.hpp"
+#include "tools/calibrate/tracker_opinion.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -79,7 +80,9 @@ class LaserStep final : public Step {
     options.points.axis = keys_.line.axis;
     auto fit = fit_laser(session, board, before.camera, options);
     if (!fit) return tl::unexpected(fit.error());
-    return outcome_of(*fit, before);
+    Outcome out = outcome_of(*fit, before);
+    ask_tracker(out, session, board, before.camera, before.camera_latency);
+    return out;
   }
 
  private:

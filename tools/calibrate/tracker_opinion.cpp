@@ -39,6 +39,8 @@ std::optional<Chain> chain_of(const std::vector<HandEyePicture>& pictures, const
   const auto start = best_closed_form(all, board);
   if (!start) return std::nullopt;
   Chain chain{refine(all, *start, corner_noise_px(all), true), 0};
+  // A board of negative size is a mirrored one: it is judged as what it was said to be.
+  if (!(chain.solution.scale > 0)) return Chain{*start, chain_error(all, *start, board)};
   chain.error_mm = scaled_error(all, chain.solution, board);
   return chain;
 }

@@ -94,4 +94,28 @@ inline const Figure& figure(const Quality& quality, const std::string& name) {
   return none;
 }
 
+/// Over a hundred seeds the standard deviations that are stated match the spread of the values within 30 %.
+/// `quality_of` gives the Result<Quality> of a seed.
+template <class QualityOf>
+void expect_stated_deviations_hold(const std::vector<std::string>& figures, QualityOf&& quality_of) {
+  std::vector<std::vector<double>> values(figures.size()), stated(figures.size());
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Result<Quality> quality = quality_of(seed);
+    ASSERT_TRUE(quality.has_value()) << quality.error().message;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      values[i].push_back(figure(*quality, figures[i]).value);
+      stated[i].push_back(figure(*quality, figures[i]).deviation);
+    }
+  }
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    EXPECT_NEAR(rms_of_values(stated[i]) / spread_of(values[i]), 1, 0.3) << figures[i];
+}
+
+/// Of the Result of a fit.
+template <class Fit>
+Result<Quality> quality_in(const Result<Fit>& fit) {
+  if (!fit) return tl::unexpected(fit.error());
+  return fit->quality;
+}
+
 }  // namespace linescope::calibrate::testing
