@@ -13,7 +13,7 @@ namespace linescope::calibrate {
 namespace {
 
 constexpr double kWater = 1.33;
-constexpr double kViews = 20;  ///< of the twin's forty, for time
+constexpr double kViews = 30;  ///< of the twin's forty, for time
 
 /// Camera II's numbers are those in water. Behind the window, without water, near the axis: 1/1.33 of the
 /// focal length, and the distortion of the same picture over slopes 1.33 times as large.
