@@ -108,14 +108,14 @@ bool improve(Sheet& sheet, const std::vector<const LaserPoint*>& points, const E
 }  // namespace
 
 double Sheet::inverse_depth(double x, double y) const {
-  return c.dot(terms_of(x, y));
+  // Written out: a fit asks this hundreds of millions of times.
+  return c(2) + x * (c(0) + x * (c(3) + x * c(6) + y * c(7))) +
+         y * (c(1) + x * c(4) + y * (c(5) + x * c(8) + y * c(9)));
 }
 
 Eigen::Vector2d Sheet::slope(double x, double y) const {
-  SheetTerms by_x, by_y;
-  by_x << 1, 0, 0, 2 * x, y, 0, 3 * x * x, 2 * x * y, y * y, 0;
-  by_y << 0, 1, 0, 0, x, 2 * y, 0, x * x, 2 * x * y, 3 * y * y;
-  return {c.dot(by_x), c.dot(by_y)};
+  return {c(0) + x * (2 * c(3) + 3 * x * c(6) + 2 * y * c(7)) + y * (c(4) + y * c(8)),
+          c(1) + y * (2 * c(5) + 3 * y * c(9) + 2 * x * c(8)) + x * (c(4) + x * c(7))};
 }
 
 double Sheet::distance(const LaserPoint& p) const {
