@@ -24,6 +24,7 @@ function(linescope_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_warnings linescope_sanitize)
+  target_compile_options(${name} PRIVATE ${linescope_outer_code})
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
@@ -45,7 +46,7 @@ function(linescope_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
     linescope_warnings linescope_sanitize)
-  target_compile_options(${name} PRIVATE ${linescope_test_speed})
+  target_compile_options(${name} PRIVATE ${linescope_outer_code})
   if(NOT ARG_QT)
     target_precompile_headers(${name} REUSE_FROM linescope_test_headers)
     # GCC 12 sees ghosts in std::string built from a literal, and with precompiled headers it says so.
