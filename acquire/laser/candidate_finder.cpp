@@ -42,59 +42,89 @@ std::size_t merge_across_cores(const Profile& profile, std::span<Run> runs, int 
 void CandidateFinder::begin(LaserColour colour, const ChannelMeans& scene) {
   excess_ = ColourExcess(colour);
   window_.start(colour, scene, options_.saturation_level);
-  neighbour_ = {};
+  neighbours_ = {};
+  block_.length = {};
 }
 
-void CandidateFinder::find(const Profile& profile, int index, std::span<Run> runs, CandidateList& out,
+void CandidateFinder::find(const PictureView& picture, const RunFinder& runs, CandidateList& out,
                            NoiseMeter& noise) {
-  length_ = profile.length;
-  index_ = index;
-  const std::size_t n =
-      runs.size() > 1 ? merge_across_cores(profile, runs, options_.max_saturated) : runs.size();
-  const auto broad = [](const Run& run) { return run.length() > kSpeck; };
-  const auto rivals = std::count_if(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(n), broad);
-  next_ = {};
-  for (const Run run : runs.first(n)) {
-    if (options_.centre == CentreMethod::weighted_mean) {
-      fill_mean_candidate(profile, index, run, excess_, options_, out.all.emplace_back());
-      if (index % kNoiseEvery == 0) noise.add(profile, run.last + 3, run.last + 10);
-    } else if (!(n == 1 || (rivals == 1 && broad(run))) || !follow(profile, index, run, out)) {
-      window_.read(profile, run);
-      close_look(run, out);
-      noise.add(profile, window_.begin(), window_.begin() + kNoisePixels - 1);
-      noise.add(profile, window_.begin() + window_.size() - kNoisePixels,
-                window_.begin() + window_.size() - 1);
+  const Source source{picture, runs, out, noise, leading_channel(options_.colour)};
+  const int profiles = profile_count(picture, options_.axis);
+  const bool mean = options_.centre == CentreMethod::weighted_mean;
+  out.begin(profiles);
+  for (index_ = 0; index_ < profiles; ++index_) {
+    out.first.push_back(static_cast<int>(out.all.size()));
+    next().profile = -1;
+    if (blocks_ && mean && index_ % kBlockLanes == 0) {
+      block_.collect(picture, options_.axis, source.lead, runs, index_, kBlockLanes);
+      mean_sums(block_, excess_, {options_.colour_threshold, options_.saturation_level}, means_);
     }
+    if (runs.run_count(index_) == 0) continue;
+    const Profile profile = profile_of(picture, options_.axis, source.lead, index_);
+    length_ = profile.length;
+    RunFinder::Runs found = runs.runs(index_);
+    if (found.count > 1)
+      found.count = merge_across_cores(profile, {found.run.data(), found.count}, options_.max_saturated);
+    const std::span<const Run> merged(found.run.data(), found.count);
+    mean ? find_means(source, profile, merged) : find_shapes(source, profile, merged);
   }
-  neighbour_ = next_;
+  out.first.push_back(static_cast<int>(out.all.size()));
 }
 
-bool CandidateFinder::follow(const Profile& profile, int index, Run run, CandidateList& out) {
-  const Neighbour& n = neighbour_;
-  if (n.profile != index - 1 || n.followers >= kFollowers) return false;
+void CandidateFinder::find_means(const Source& source, const Profile& profile, std::span<const Run> runs) {
+  for (const Run run : runs) {
+    const MeanSums sums =
+        block_.holds(index_, run)
+            ? means_.of(static_cast<std::size_t>(index_ - block_.first))
+            : mean_sums(profile, run, excess_, {options_.colour_threshold, options_.saturation_level});
+    fill_mean_candidate(sums, profile.length, index_, run, options_, source.out.all.emplace_back());
+    if (index_ % kNoiseEvery == 0) source.noise.add(profile, run.last + 3, run.last + 10);
+  }
+}
+
+void CandidateFinder::find_shapes(const Source& source, const Profile& profile, std::span<const Run> runs) {
+  const auto broad = [](const Run& run) { return run.length() > kSpeck; };
+  const auto rivals = std::count_if(runs.begin(), runs.end(), broad);
+  for (const Run run : runs) {
+    const bool alone = runs.size() == 1 || (rivals == 1 && broad(run));
+    if (alone && follow(source, profile, run)) continue;
+    window_.read(profile, run);
+    close_look(run, source.out);
+    const int begin = window_.begin(), end = begin + window_.size();
+    source.noise.add(profile, begin, begin + kNoisePixels - 1);
+    source.noise.add(profile, end - kNoisePixels, end - 1);
+  }
+}
+
+/// The first of a neighbour's followers asks for all of them.
+LightSums CandidateFinder::light_along(const Source& source, const Profile& profile, Run run) {
+  const Neighbour& n = neighbour();
+  if (blocks_ && n.followers == 0) {
+    block_.collect(source.picture, options_.axis, source.lead, source.runs, index_, kFollowers);
+    light_sums(block_, excess_, n.background, lights_);
+  }
+  return block_.holds(index_, run) ? lights_.of(static_cast<std::size_t>(index_ - block_.first))
+                                   : light_sums(profile, run, excess_, n.background);
+}
+
+bool CandidateFinder::follow(const Source& source, const Profile& profile, Run run) {
+  const Neighbour& n = neighbour();
+  if (n.profile != index_ - 1 || n.followers >= kFollowers) return false;
   if (std::abs(run.first - n.run.first) > kSame || std::abs(run.last - n.run.last) > kSame ||
       run.length() > kLongest || std::min<int>(run.first, length_ - 1 - run.last) < run.length())
     return false;
-  int top = 0, at = 0, sum = 0, moment = 0;
-  const std::uint8_t* p = profile.at[0] + run.first * profile.step;
-  for (int i = 0; i < run.length(); ++i, p += profile.step) {
-    const int light = std::max(0, *p - n.background);
-    at = *p > top ? i : at;
-    top = std::max<int>(top, *p);
-    sum += light;
-    moment += light * i;
-  }
-  if (top >= options_.saturation_level || sum == 0) return false;
-  at += run.first;
-  const bool coloured =
-      excess_.of(top, profile.value(1, at), profile.value(2, at)) >= options_.colour_threshold;
-  if (!coloured && !excess_.colourless()) return false;
+  const LightSums light = light_along(source, profile, run);
+  if (light.top >= options_.saturation_level || light.sum == 0) return false;
+  if (light.excess < options_.colour_threshold && !excess_.colourless()) return false;
+  CandidateList& out = source.out;
   Candidate& c = out.all.emplace_back();
+  // A copy of the one that was looked at, not of the latest: what was just written field by field cannot be
+  // read back as a whole without waiting.
   c = out.all[static_cast<std::size_t>(n.candidate)];
-  c.profile = index;
-  c.centre = static_cast<float>(run.first) + static_cast<float>(moment) / static_cast<float>(sum);
-  c.peak = static_cast<float>(top - n.background);
-  next_ = {index, run, static_cast<int>(out.all.size()) - 1, n.background, n.followers + 1};
+  c.profile = index_;
+  c.centre = static_cast<float>(run.first) + static_cast<float>(light.moment) / static_cast<float>(light.sum);
+  c.peak = static_cast<float>(light.top - n.background);
+  next() = {index_, run, n.candidate, n.background, n.followers + 1};
   return true;
 }
 
@@ -118,7 +148,7 @@ void CandidateFinder::close_look(Run run, CandidateList& out) {
   if (after) out.all.push_back(candidate_from(*after));
   const Candidate& c = out.all.back();
   const bool plain = !before && !after && c.good && !c.clipped && c.mix == LightMix{};
-  if (plain && next_.profile < 0) next_ = {index_, run, first, window_.background(), 0};
+  if (plain && next().profile < 0) next() = {index_, run, first, window_.background(), 0};
 }
 
 Candidate CandidateFinder::candidate_from(const Hump& h) const {

@@ -8,6 +8,7 @@
 #include "acquire/laser/colour_excess.hpp"
 #include "acquire/laser/hump.hpp"
 #include "acquire/laser/noise_meter.hpp"
+#include "acquire/laser/run_block.hpp"
 #include "acquire/laser/run_finder.hpp"
 
 namespace linescope {
@@ -28,13 +29,24 @@ class CandidateFinder {
   /// without the laser, in the order of Profile's channels.
   void begin(LaserColour colour, const ChannelMeans& scene);
 
-  /// Appends the candidates of one profile, in ascending order of their middle. Profiles come in ascending
-  /// order. `runs` are merged in place where a white core separates them.
-  void find(const Profile& profile, int index, std::span<Run> runs, CandidateList& out, NoiseMeter& noise);
+  /// The candidates of all profiles, those of a profile in ascending order of their middle. Runs are merged
+  /// where a white core separates them.
+  void find(const PictureView& picture, const RunFinder& runs, CandidateList& out, NoiseMeter& noise);
 
  private:
+  /// What a picture's profiles have in common.
+  struct Source {
+    const PictureView& picture;
+    const RunFinder& runs;
+    CandidateList& out;
+    NoiseMeter& noise;
+    int lead;
+  };
+  void find_means(const Source& source, const Profile& profile, std::span<const Run> runs);
+  void find_shapes(const Source& source, const Profile& profile, std::span<const Run> runs);
   void close_look(Run run, CandidateList& out);
-  bool follow(const Profile& profile, int index, Run run, CandidateList& out);
+  bool follow(const Source& source, const Profile& profile, Run run);
+  LightSums light_along(const Source& source, const Profile& profile, Run run);
   Candidate candidate_from(const Hump& hump) const;
   bool has_colour(const Hump& hump) const;
   bool rises_in_colour(const Hump& hump) const;
@@ -44,7 +56,7 @@ class CandidateFinder {
   struct Neighbour {
     int profile = -1;  ///< -1: none
     Run run;
-    int candidate = 0;   ///< in CandidateList::all
+    int candidate = 0;   ///< of the close look, in CandidateList::all
     int background = 0;  ///< grey levels
     int followers = 0;   ///< since the last close look
   };
@@ -54,7 +66,14 @@ class CandidateFinder {
   int length_ = 0;  ///< of the profile
   int index_ = 0;
   LightWindow window_;
-  Neighbour neighbour_, next_;
+  Neighbour& next() { return neighbours_[static_cast<std::size_t>(index_ & 1)]; }
+  const Neighbour& neighbour() const { return neighbours_[static_cast<std::size_t>(~index_ & 1)]; }
+
+  std::array<Neighbour, 2> neighbours_;  ///< of profiles with even and with odd index
+  bool blocks_ = block_sums_known();
+  RunBlock block_;  ///< sums of these runs are at hand
+  MeanSumsBlock means_;
+  LightSumsBlock lights_;
 };
 
 }  // namespace linescope

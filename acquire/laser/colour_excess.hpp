@@ -24,6 +24,9 @@ class ColourExcess {
     return std::min(v0 | d0, std::min(v1 | d1, v2 | d2)) - std::max(v0 & d0, std::max(v1 & d1, v2 & d2));
   }
 
+  /// 255 for a dark channel, 0 for a lit one: what of() combines values with.
+  const std::array<int, 3>& dark_bits() const { return dark_bits_; }
+
   bool lit(std::size_t channel) const { return dark_bits_[channel] == 0; }
   bool colourless() const { return lit(0) && lit(1) && lit(2); }
 

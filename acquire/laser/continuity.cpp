@@ -6,12 +6,14 @@
 namespace linescope {
 namespace {
 
+float allowed_step(const Candidate& a, const Candidate& b, const LineExtractorOptions& options) {
+  return std::max(static_cast<float>(options.max_step), 0.5F * std::max(a.sigma, b.sigma));
+}
+
 /// How badly b continues a, 0 best, 1 at the limit; broad lines are allowed broader steps.
 float misfit(const Candidate& a, const Candidate& b, const LineExtractorOptions& options) {
   const auto steps = static_cast<float>(b.profile - a.profile);
-  const float allowed =
-      std::max(static_cast<float>(options.max_step), 0.5F * std::max(a.sigma, b.sigma)) * steps;
-  return std::abs(b.centre - a.centre) / allowed + 0.1F * (steps - 1);
+  return std::abs(b.centre - a.centre) / (allowed_step(a, b, options) * steps) + 0.1F * (steps - 1);
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ bool Continuity::extend_single(CandidateList& list, int profile, const LineExtra
   const Candidate* const a = list.begin_of(profile - 1);
   if (list.end_of(profile) - c != 1 || list.end_of(profile - 1) - a != 1 || !c->good || !a->good)
     return false;
-  if (misfit(*a, *c, options) >= 1) return false;
+  if (std::abs(c->centre - a->centre) >= allowed_step(*a, *c, options)) return false;
   continue_with(list, *a, *c);
   return true;
 }
@@ -60,7 +62,7 @@ void Continuity::extend(CandidateList& list, int profile, const LineExtractorOpt
   for (Candidate* c = begin; c != end; ++c) {
     if (!c->good || c->piece >= 0) continue;
     c->piece = pieces();
-    pieces_.push_back({1, c->peak});
+    pieces_.push_back({1, c->peak, 0});
   }
 }
 
@@ -69,11 +71,14 @@ void Continuity::link(CandidateList& list, int profiles, const LineExtractorOpti
   continued_.assign(list.all.size(), 0);
   for (int p = 0; p < profiles; ++p)
     if (!extend_single(list, p, options)) extend(list, p, options);
+  for (Piece& piece : pieces_) {
+    piece.weight = 0.5 * std::min(1.0, piece.count / (3.0 * options.min_run));
+    piece.peaks /= piece.count;
+  }
   for (Candidate& c : list.all) {
     if (!c.good) continue;
     const Piece& piece = pieces_[static_cast<std::size_t>(c.piece)];
-    const double length = std::min(1.0, piece.count / (3.0 * options.min_run));
-    c.support = static_cast<float>(0.5 * length * (c.peak + piece.peaks / piece.count));
+    c.support = static_cast<float>(piece.weight * (c.peak + piece.peaks));
     if (piece.count < options.min_run) c.reject(NoPoint::isolated);
   }
 }

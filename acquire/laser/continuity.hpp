@@ -19,7 +19,8 @@ class Continuity {
  private:
   struct Piece {
     int count = 0;
-    double peaks = 0;
+    double peaks = 0;   ///< their sum; once all are linked, their mean
+    double weight = 0;  ///< of a peak in the support
   };
   void extend(CandidateList& candidates, int profile, const LineExtractorOptions& options);
   /// The common case, one candidate after one; false: look closer.

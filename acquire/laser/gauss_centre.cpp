@@ -8,22 +8,22 @@ namespace {
 
 constexpr float kSmallest = 0.5F, kLargest = 5.2F, kRatio = 1.08F;  // sigmas of the tables, in bins
 constexpr float kStep = 1.0F / 64;
-constexpr float kBinned = 2.5F;    // sigma in bins that a wide line is reduced to
-constexpr float kFarthest = 2.0F;  // sigmas from the start beyond which it has wandered off
+constexpr float kBinned = 2.5F;  // sigma in bins that a wide line is reduced to
 
 /// To the nearest whole number; `x` is not negative.
 int nearest(float x) {
   return static_cast<int>(x + 0.5F);
 }
 
-/// Of four numbers within +-6, to a millionth.
-template <class Lanes>
-Lanes exponential(Lanes x) {
-  x *= 1.0F / 16;
-  Lanes e = 1 + x * (1.0F / 6);
-  for (const float divisor : {1.0F / 5, 1.0F / 4, 1.0F / 3, 1.0F / 2, 1.0F}) e = 1 + x * divisor * e;
-  for (int i = 0; i < 4; ++i) e *= e;
-  return e;
+GaussKernel kernel_of(float sigma) {
+  GaussKernel k;
+  k.sigma = sigma;
+  k.flank_begin = nearest(3.5F * sigma);
+  k.flank_end = k.flank_begin + std::max(2, static_cast<int>(1.5F * sigma));
+  k.half = std::max(k.flank_end, static_cast<int>(std::ceil(3 * sigma)) + 2);
+  for (int i = 0; i <= k.half; ++i)
+    k.weight.push_back(std::exp(-static_cast<float>(i * i) / (2 * sigma * sigma)));
+  return k;
 }
 
 }  // namespace
@@ -38,142 +38,110 @@ float GaussCentre::Frame::px_of(float index) const {
   return static_cast<float>(first) + (index + static_cast<float>(half)) * width + 0.5F * (width - 1);
 }
 
-GaussCentre::GaussCentre() {
+GaussCentre::GaussCentre(const GaussClimber& climber) : climber_(climber) {
   for (float sigma = kSmallest; sigma < kLargest; sigma *= kRatio) {
-    Kernel k;
-    k.sigma = sigma;
-    k.flank_begin = nearest(3.5F * sigma);
-    k.flank_end = k.flank_begin + std::max(2, static_cast<int>(1.5F * sigma));
-    k.half = std::max(k.flank_end, static_cast<int>(std::ceil(3 * sigma)) + 2);
-    for (int i = 0; i <= k.half; ++i)
-      k.weight.push_back(std::exp(-static_cast<float>(i * i) / (2 * sigma * sigma)));
-    kernels_.push_back(std::move(k));
+    queues_.emplace_back();
+    queues_.back().kernel = kernel_of(sigma);
   }
   for (float sigma = 0; sigma <= kLargest + kStep; sigma += kStep) {
     const float step = std::log(std::max(sigma, kSmallest) / kSmallest) / std::log(kRatio);
     index_.push_back(
-        static_cast<std::uint8_t>(std::min<int>(nearest(step), static_cast<int>(kernels_.size()) - 1)));
+        static_cast<std::uint8_t>(std::min<int>(nearest(step), static_cast<int>(queues_.size()) - 1)));
   }
-  window_.resize(static_cast<std::size_t>(2 * kernels_.back().half + 1));
 }
 
-const GaussCentre::Kernel& GaussCentre::kernel_for(float sigma) const {
+GaussCentre::Queue& GaussCentre::queue_for(float sigma) {
   const auto step = static_cast<std::size_t>(nearest(sigma / kStep));
-  return kernels_[index_[std::min(step, index_.size() - 1)]];
+  return queues_[index_[std::min(step, index_.size() - 1)]];
 }
 
-void GaussCentre::begin(float noise) {
+void GaussCentre::begin(const PictureView& picture, ProfileAxis axis, int lead, float noise) {
+  picture_ = picture;
+  axis_ = axis;
+  lead_ = lead;
   noise_ = noise;
-  waiting_ = 0;
+  const Profile p = profile_of(picture, axis, lead, 0);
+  step_ = p.step;
+  length_ = p.length;
+  pitch_ = axis == ProfileAxis::column ? picture.channels : picture.stride;
   fits_.clear();
 }
 
-void GaussCentre::add(const Profile& profile, float start, float sigma, const LightMix& mix) {
-  const int bin = std::max(1, static_cast<int>(sigma / kBinned));
-  const Kernel& kernel = kernel_for(sigma / static_cast<float>(bin));
-  if (waiting_ == kLanes || (waiting_ > 0 && &kernel != kernel_)) climb();
-  kernel_ = &kernel;
-  Frame& frame = frames_[waiting_];
-  frame = {nearest(start) - kernel.half * bin - bin / 2, bin, kernel.half};
-  start_[waiting_] = frame.index_of(start);
-  gather(profile, frame, 0, 1.0F);
-  if (mix[0] != 0) gather(profile, frame, 1, mix[0]);
-  if (mix[1] != 0) gather(profile, frame, 2, mix[1]);
+void GaussCentre::add(int profile, float start, float sigma, const LightMix& mix) {
+  const int bin = sigma < 2 * kBinned ? 1 : static_cast<int>(sigma / kBinned);
+  Queue& queue = queue_for(bin == 1 ? sigma : sigma / static_cast<float>(bin));
+  const int half = queue.kernel.half;
+  Waiting& w = queue.waiting[queue.count++];  // field by field: a copy would wait for them
+  w.profile = profile;
+  w.fit = fits_.size();
+  w.frame.first = nearest(start) - half * bin - bin / 2;
+  w.frame.bin = bin;
+  w.frame.half = half;
+  w.mix = mix;
   fits_.push_back({start, 0, false});
-  ++waiting_;
+  if (queue.count == kGaussLanes) climb(queue);
 }
 
 const std::vector<GaussFit>& GaussCentre::fits() {
-  if (waiting_ > 0) climb();
+  for (Queue& queue : queues_)
+    if (queue.count > 0) climb(queue);
   return fits_;
+}
+
+/// The laser's channel alone, pixel by pixel, inside the profile; also the four bytes that are read at its
+/// last pixel lie in the picture.
+bool GaussCentre::plain(const Waiting& w) const {
+  const int end = w.frame.first + 2 * w.frame.half + 1;
+  const bool last = w.profile + 1 >= profile_count(picture_, axis_);
+  return w.frame.bin == 1 && w.mix == LightMix{} && w.frame.first >= 0 && end <= length_ - (last ? 4 : 0) &&
+         pitch_ <= INT32_MAX / 16384 && step_ <= INT32_MAX / 16384;
 }
 
 /// Averages of `bin` pixels each; behind the ends of the profile the last pixel goes on. The first channel
 /// begins the window, the others are added to it.
-void GaussCentre::gather(const Profile& p, const Frame& f, std::size_t channel, float share) {
+void GaussCentre::gather_slowly(const Waiting& w, std::size_t lane) {
+  const Profile p = profile_of(picture_, axis_, lead_, w.profile);
+  for (int i = 0; i <= 2 * w.frame.half; ++i) batch_.window[static_cast<std::size_t>(i)][lane] = 0;
+  add_channel(p, w.frame, 0, 1.0F, lane);
+  if (w.mix[0] != 0) add_channel(p, w.frame, 1, w.mix[0], lane);
+  if (w.mix[1] != 0) add_channel(p, w.frame, 2, w.mix[1], lane);
+}
+
+void GaussCentre::add_channel(const Profile& p, const Frame& f, std::size_t channel, float share,
+                              std::size_t lane) {
   const std::uint8_t* const base = p.at[channel];
-  float* out = reinterpret_cast<float*>(window_.data()) + waiting_;
-  const int count = 2 * f.half + 1;
-  const bool inside = f.first >= 0 && f.first + count * f.bin <= p.length;
-  if (inside && f.bin == 1 && channel == 0) {
-    const std::uint8_t* next = base + f.first * p.step;
-    for (int i = 0; i < count; ++i, next += p.step, out += kLanes) *out = static_cast<float>(*next);
-    return;
-  }
   const float scale = share / static_cast<float>(f.bin);
-  for (int i = 0; i < count; ++i, out += kLanes) {
+  for (int i = 0; i <= 2 * f.half; ++i) {
     int total = 0;
     for (int k = f.first + i * f.bin; k < f.first + (i + 1) * f.bin; ++k)
       total += base[std::clamp(k, 0, p.length - 1) * p.step];
-    *out = (channel == 0 ? 0 : *out) + scale * static_cast<float>(total);
+    batch_.window[static_cast<std::size_t>(i)][lane] += scale * static_cast<float>(total);
   }
 }
 
-/// The level of both flanks; a slope only where the noise does not explain it.
-void GaussCentre::take_background_out() {
-  const Kernel& k = *kernel_;
-  Lanes* const middle = window_.data() + k.half;
-  Lanes left{}, right{};
-  for (int d = k.flank_begin; d <= k.flank_end; ++d) {
-    left += middle[-d];
-    right += middle[d];
+void GaussCentre::climb(Queue& queue) {
+  GaussWindows windows;
+  windows.picture = picture_.data + (picture_.channels == 1 ? 0 : lead_);
+  windows.step = static_cast<int>(step_);
+  for (std::size_t lane = 0; lane < queue.count; ++lane) {
+    const Waiting& w = queue.waiting[lane];
+    if (!plain(w)) continue;
+    windows.first[lane] = static_cast<std::int32_t>(pitch_ * w.profile + step_ * w.frame.first);
+    windows.wanted[lane] = -1;
   }
-  const float share = 1.0F / static_cast<float>(k.flank_end - k.flank_begin + 1);
-  const Lanes rise = (right - left) * share, level = 0.5F * share * (left + right);
-  const Lanes slope = rise * rise > 18 * noise_ * noise_ * share
-                          ? rise / static_cast<float>(k.flank_begin + k.flank_end)
-                          : Lanes{};
-  for (int d = -k.half; d <= k.half; ++d) middle[d] -= level + slope * static_cast<float>(d);
-}
-
-GaussCentre::Light GaussCentre::below(Lanes place) const {
-  const Kernel& k = *kernel_;
-  const Lanes* const middle = window_.data() + k.half;
-  // exp(-(d - place)^2 / 2 s^2) is exp(-d^2 / 2 s^2), a table, times exp(place / s^2) to the power of d,
-  // times what all weights have in common.
-  const Lanes up = exponential(place / (k.sigma * k.sigma)), down = 1 / up;
-  Lanes rising = up, falling = down;
-  Light sum{middle[0], {}, Lanes{} + 1};
-  for (int d = 1; d <= k.half; ++d, rising *= up, falling *= down) {
-    const float weight = k.weight[static_cast<std::size_t>(d)];
-    const Lanes above = weight * rising, beneath = weight * falling;
-    const Lanes a = above * middle[d], b = beneath * middle[-d];
-    sum.weight += a + b;
-    sum.moment += (a - b) * static_cast<float>(d);
-    sum.power += above * above + beneath * beneath;
+  climber_.gather(windows, 2 * queue.kernel.half + 1, batch_);
+  for (std::size_t lane = 0; lane < queue.count; ++lane) {
+    const Waiting& w = queue.waiting[lane];
+    if (windows.wanted[lane] == 0) gather_slowly(w, lane);
+    batch_.start[lane] = w.frame.index_of(fits_[w.fit].centre);
   }
-  return sum;
-}
-
-/// Moves the Gaussians to where the light below them, less the background, is balanced.
-void GaussCentre::climb() {
-  constexpr int kMostRounds = 6;
-  const Kernel& k = *kernel_;
-  const float enough = std::max(1.0F / 16, 0.05F * k.sigma), farthest = kFarthest * k.sigma;
-  take_background_out();
-  GaussFit* const out = fits_.data() + fits_.size() - waiting_;
-  Lanes at = start_;
-  unsigned open = (1U << waiting_) - 1;
-  for (int round = 0; round < kMostRounds && open != 0; ++round) {
-    const Lanes place = at;
-    const Light light = below(place);
-    // Line and kernel are equally wide: the mean sees half of the offset.
-    const Lanes offset = 2 * (light.moment / light.weight - place);
-    for (std::size_t lane = 0; lane < waiting_; ++lane) {
-      if ((open >> lane & 1U) == 0) continue;
-      at[lane] += std::clamp(offset[lane], -k.sigma, k.sigma);
-      const bool lost = !(light.weight[lane] > 0) || !(std::abs(at[lane] - start_[lane]) <= farthest);
-      if (!lost && std::abs(offset[lane]) > enough) continue;
-      open &= ~(1U << lane);
-      if (lost) {
-        at[lane] = start_[lane];
-        continue;
-      }
-      const float common = std::exp(-place[lane] * place[lane] / (2 * k.sigma * k.sigma));
-      out[lane] = {frames_[lane].px_of(at[lane]), light.weight[lane] / (common * light.power[lane]), true};
-    }
+  climber_.climb(queue.kernel, noise_, batch_);
+  for (std::size_t lane = 0; lane < queue.count; ++lane) {
+    const Waiting& w = queue.waiting[lane];
+    if (batch_.settled[lane] != 0)
+      fits_[w.fit] = {w.frame.px_of(batch_.place[lane]), batch_.amplitude[lane], true};
   }
-  waiting_ = 0;
+  queue.count = 0;
 }
 
 }  // namespace linescope

@@ -1,11 +1,12 @@
 // The middle of a line profile by a matched Gaussian: the maximum-likelihood place for a Gaussian line in
-// white noise. Four profiles at a time.
+// white noise. Eight profiles of about the same width at a time.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "acquire/laser/gauss_climb.hpp"
 #include "acquire/laser/light_window.hpp"
 
 namespace linescope {
@@ -16,58 +17,57 @@ struct GaussFit {
   bool settled = false;  ///< false: it wandered off, or there is no light; centre is then the start
 };
 
-/// Tables are built once; nothing is allocated after the most profiles and the widest line were seen. The
-/// place found in a profile does not depend on the others. One thread per object.
+/// Tables are built once; nothing is allocated after the most profiles were seen. The place found in a
+/// profile does not depend on the others. One thread per object.
 class GaussCentre {
  public:
-  GaussCentre();
+  explicit GaussCentre(const GaussClimber& climber = fastest_gauss_climber());
 
   /// Starts a picture. `noise`: grey levels; decides whether a slope of the background is real.
-  void begin(float noise);
+  void begin(const PictureView& picture, ProfileAxis axis, int lead, float noise);
 
   /// `start`: within about a sigma of the middle. `sigma`: of the line, px. `mix`: the light to look at.
-  void add(const Profile& profile, float start, float sigma, const LightMix& mix);
+  void add(int profile, float start, float sigma, const LightMix& mix);
 
   /// Of all profiles, in the order in which they were added.
   const std::vector<GaussFit>& fits();
 
  private:
-  static constexpr std::size_t kLanes = 4;
-  using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-
-  struct Kernel {
-    float sigma = 1;
-    int half = 0;  ///< the window reaches from -half to +half
-    int flank_begin = 0,
-        flank_end = 0;          ///< distances from the middle that count as background, both included
-    std::vector<float> weight;  ///< of the pixels 0 .. half from the middle
-  };
   /// Where a profile's window lies: bins of `bin` pixels, the first from pixel `first` on.
   struct Frame {
     int first = 0, bin = 1, half = 0;
     float index_of(float px) const;  ///< in bins from the middle one
     float px_of(float index) const;
   };
-  struct Light {
-    Lanes weight{}, moment{};  ///< under the Gaussian, and times the distance from the window's middle
-    Lanes power{};             ///< of the Gaussian, as if its weight were 1 at the window's middle
+  /// A profile that waits until there are enough of its kernel.
+  struct Waiting {
+    int profile = 0;
+    std::size_t fit = 0;
+    Frame frame;
+    LightMix mix{};
   };
-  const Kernel& kernel_for(float sigma) const;
-  void gather(const Profile& profile, const Frame& frame, std::size_t channel, float share);
-  void take_background_out();
-  Light below(Lanes place) const;
-  void climb();
+  struct Queue {
+    GaussKernel kernel;
+    std::size_t count = 0;
+    std::array<Waiting, kGaussLanes> waiting{};
+  };
+  Queue& queue_for(float sigma);
+  bool plain(const Waiting& w) const;
+  void gather_slowly(const Waiting& w, std::size_t lane);
+  void add_channel(const Profile& profile, const Frame& frame, std::size_t channel, float share,
+                   std::size_t lane);
+  void climb(Queue& queue);
 
-  std::vector<Kernel> kernels_;
-  std::vector<std::uint8_t> index_;  ///< of the kernel, by sigma in steps of kStep
+  GaussClimber climber_;
+  std::vector<Queue> queues_;
+  std::vector<std::uint8_t> index_;  ///< of the queue, by sigma in steps of kStep
+  PictureView picture_;
+  ProfileAxis axis_ = ProfileAxis::column;
+  int lead_ = 0;
   float noise_ = 0;
-
-  // The profiles that wait, all of one kernel.
-  const Kernel* kernel_ = nullptr;
-  std::size_t waiting_ = 0;
-  std::array<Frame, kLanes> frames_{};
-  Lanes start_{};
-  std::vector<Lanes> window_;
+  std::ptrdiff_t step_ = 0, pitch_ = 0;  ///< bytes from pixel to pixel, from profile to profile
+  int length_ = 0;                       ///< of a profile
+  GaussBatch batch_;
   std::vector<GaussFit> fits_;
 };
 

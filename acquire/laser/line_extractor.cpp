@@ -63,7 +63,7 @@ void LineExtractor::Work::start(const cv::Mat& m) {
 }
 
 void LineExtractor::Work::find_candidates(const PictureView& picture) {
-  const int lead = leading_channel(options.colour), profiles = line.profiles();
+  const int lead = leading_channel(options.colour);
   MaskRule rule = mask_rule(options, picture.channels);
   if (rule.ridge()) {
     noise.add_sparsely(picture, lead);
@@ -78,13 +78,7 @@ void LineExtractor::Work::find_candidates(const PictureView& picture) {
   const auto channel = [&](int i) { return scene[static_cast<std::size_t>((lead + i) % 3)]; };
   finder.begin(picture.channels == 3 ? options.colour : LaserColour::mono,
                {channel(0), channel(1), channel(2)});
-  candidates.begin(profiles);
-  for (int p = 0; p < profiles; ++p) {
-    candidates.first.push_back(static_cast<int>(candidates.all.size()));
-    const std::span<Run> found = runs.runs(p);
-    if (!found.empty()) finder.find(profile_of(picture, options.axis, lead, p), p, found, candidates, noise);
-  }
-  candidates.first.push_back(static_cast<int>(candidates.all.size()));
+  finder.find(picture, runs, candidates, noise);
 }
 
 void LineExtractor::Work::measure(const PictureView& picture) {
@@ -92,13 +86,11 @@ void LineExtractor::Work::measure(const PictureView& picture) {
     for (const Choice& c : choice.chosen()) add_sample(c, c.first->centre, c.first->peak);
     return;
   }
-  const int lead = leading_channel(options.colour);
-  gauss.begin(line.noise);
+  gauss.begin(picture, options.axis, leading_channel(options.colour), line.noise);
   for (const Choice& chosen : choice.chosen()) {
     const Candidate& c = *chosen.first;
     const bool calm = c.structure > kMoreThanNoise * line.noise;
-    gauss.add(profile_of(picture, options.axis, lead, c.profile), c.centre, chosen.sigma,
-              calm ? c.calm_mix : c.mix);
+    gauss.add(c.profile, c.centre, chosen.sigma, calm ? c.calm_mix : c.mix);
   }
   const GaussFit* fit = gauss.fits().data();
   for (const Choice& c : choice.chosen()) {
@@ -112,7 +104,7 @@ void LineExtractor::Work::measure(const PictureView& picture) {
 void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) {
   const auto slot = static_cast<float>(c.first->profile);
   const bool column = options.axis == ProfileAxis::column;
-  LineSample s;
+  LineSample& s = line.samples.emplace_back();
   s.u = column ? slot : centre;
   s.v = column ? centre : slot;
   s.width = c.first->sigma;
@@ -124,7 +116,6 @@ void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) 
     s.second_ratio = c.second->support / c.first->support;
     ++line.with_second;
   }
-  line.samples.push_back(s);
 }
 
 void LineExtractor::Work::finish() {

@@ -7,13 +7,13 @@
 namespace linescope {
 namespace {
 
+/// Without branches: a dark channel counts as 255 among the lit ones, a lit one as 0 among the dark ones.
 int excess(const std::uint8_t* bgr, unsigned on) {
   int shines = 255, dark = 0;
   for (unsigned c = 0; c < 3; ++c) {
-    if (on >> c & 1U)
-      shines = std::min<int>(shines, bgr[c]);
-    else
-      dark = std::max<int>(dark, bgr[c]);
+    const int unlit = (on >> c & 1U) != 0 ? 0 : 255;
+    shines = std::min(shines, bgr[c] | unlit);
+    dark = std::max(dark, bgr[c] & unlit);
   }
   return shines - dark;
 }

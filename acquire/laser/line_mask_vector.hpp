@@ -102,34 +102,69 @@ void mark_rows_by(const PictureView& p, const MaskRule& rule, const RowPlan& pla
   plainly(mask_words(p.width));
 }
 
-/// How far the rows lie apart that are marked together: a quarter of the picture, or as far as a ridge test
-/// across them looks, so that each row's sides are among the others.
+/// How far the rows lie apart that are marked together: an equal share of the picture, or as far as a ridge
+/// test across them looks, so that each row's sides are among the others.
 inline int rows_apart(const PictureView& p, const MaskRule& rule) {
-  const int quarter = std::max(1, p.height / kRowsAtOnce);
-  return rule.ridge() && rule.axis == ProfileAxis::column ? std::min(rule.reach, quarter) : quarter;
+  const int share = std::max(1, p.height / kRowsAtOnce);
+  return rule.ridge() && rule.axis == ProfileAxis::column ? std::min(rule.reach, share) : share;
+}
+
+/// What all rows can do alike; the rest of each is left to the plain version.
+inline RowPlan common_plan(const PictureView& p, const MaskRule& rule, std::span<const int> ys) {
+  RowPlan common = plan_of_row(p, rule, ys[0]);
+  for (const int y : ys.subspan(1)) {
+    const RowPlan plan = plan_of_row(p, rule, y);
+    common = {std::max(common.begin, plan.begin), std::max(common.left, plan.left),
+              std::min(common.right, plan.right), std::min(common.end, plan.end)};
+  }
+  return common;
+}
+
+/// Rows [from, to).
+template <class Vectors, unsigned On, bool Ridge>
+void mark_between(const PictureView& p, const MaskRule& rule, int from, int to, std::uint32_t* words) {
+  const int apart = rows_apart(p, rule);
+  std::array<int, kRowsAtOnce> ys{};
+  for (int y = from; y < to;) {
+    const int left = to - y, together = std::clamp(left / apart, 1, kRowsAtOnce);
+    const int rows = std::min(apart, left);
+    for (int row = y; row < y + rows; ++row) {
+      for (int i = 0; i < together; ++i) ys[static_cast<std::size_t>(i)] = row + i * apart;
+      const std::span<const int> chosen(ys.data(), static_cast<std::size_t>(together));
+      mark_rows_by<Vectors, On, Ridge>(p, rule, common_plan(p, rule, chosen), chosen, words);
+    }
+    y += rows * together;
+  }
+}
+
+/// The picture with all rows between one and the next that is marked with it as one long row.
+struct Folded {
+  PictureView picture;
+  MaskRule rule;
+  int rows = 0;  ///< of the picture in one long row
+  int to = 0;    ///< long rows that can be marked as such
+};
+
+/// Possible where rows follow one another without a gap and nothing is asked of pixels in the same row. A
+/// long row must be full, and have all of the next below it or nothing.
+inline Folded folded(const PictureView& p, const MaskRule& rule) {
+  const bool along = rule.ridge() && rule.axis == ProfileAxis::row, across = rule.ridge() && !along;
+  const int rows = rows_apart(p, rule), full = p.height / rows;
+  if (along || (across && rows != rule.reach) || p.stride != 3 * p.width || p.width % kMaskGroup != 0)
+    return {p, rule, 1, 0};
+  Folded f{p, rule, rows, across && full * rows != p.height ? full - 1 : full};
+  f.picture.stride *= rows;
+  f.picture.width *= rows;
+  f.picture.height = full;
+  f.rule.reach = 1;
+  return f;
 }
 
 template <class Vectors, unsigned On, bool Ridge>
 void mark_picture_by(const PictureView& p, const MaskRule& rule, std::uint32_t* words) {
-  const int apart = rows_apart(p, rule), block = kRowsAtOnce * apart;
-  int y = 0;
-  for (; y + block <= p.height; y += block) {
-    for (int row = y; row < y + apart; ++row) {
-      std::array<int, kRowsAtOnce> ys{};
-      std::array<RowPlan, kRowsAtOnce> plans;
-      for (std::size_t i = 0; i < ys.size(); ++i) {
-        ys[i] = row + static_cast<int>(i) * apart;
-        plans[i] = plan_of_row(p, rule, ys[i]);
-      }
-      const bool alike =
-          std::all_of(plans.begin(), plans.end(), [&](const RowPlan& o) { return o == plans[0]; });
-      const std::size_t together = alike ? ys.size() : 1;
-      for (std::size_t i = 0; i < ys.size(); i += together)
-        mark_rows_by<Vectors, On, Ridge>(p, rule, plans[i], {ys.data() + i, together}, words);
-    }
-  }
-  for (; y < p.height; ++y)
-    mark_rows_by<Vectors, On, Ridge>(p, rule, plan_of_row(p, rule, y), {&y, 1}, words);
+  const Folded f = folded(p, rule);
+  mark_between<Vectors, On, Ridge>(f.picture, f.rule, 0, f.to, words);
+  mark_between<Vectors, On, Ridge>(p, rule, f.to * f.rows, p.height, words);
 }
 
 template <class Vectors, unsigned On>

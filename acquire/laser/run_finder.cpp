@@ -7,8 +7,7 @@
 namespace linescope {
 namespace {
 
-constexpr std::int16_t kNone = -1000;  // so long before the picture that any mark begins a run
-constexpr int kAmbientRows = 8;        // one row in this many, and one pixel of each group in it
+constexpr int kAmbientRows = 8;  // one row in this many, and one pixel of each group in it
 
 constexpr int kLanes = 8;
 using Columns = std::int16_t __attribute__((vector_size(kLanes * sizeof(std::int16_t))));
@@ -37,20 +36,30 @@ bool any(Columns v) {
 
 }  // namespace
 
-void RunFinder::sample_ambient(const PictureView& picture) {
-  const std::size_t words = static_cast<std::size_t>(mask_words(picture.width));
-  for (int y = 0; y < picture.height; y += kAmbientRows) {
-    const std::uint8_t* pixel = picture.data + picture.stride * y;
-    const std::uint32_t* const marks = words_.data() + words * static_cast<std::size_t>(y + 1);
-    for (std::size_t w = 0; w < words; ++w, pixel += kMaskGroup * picture.channels) {
-      if ((marks[w] & 1U) != 0) continue;
-      for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += pixel[picture.channels == 3 ? c : 0];
-      ++ambient_count_;
-    }
+RunFinder::RunFinder(bool vectors) : avx512_(vectors && knows_avx512()) {}
+
+void RunFinder::sample_ambient(const PictureView& picture, int y, const std::uint32_t* words) {
+  const int groups = mask_words(picture.width);
+  const std::uint8_t* pixel = picture.data + picture.stride * y;
+  for (int w = 0; w < groups; ++w, pixel += kMaskGroup * picture.channels) {
+    if ((words[w] & 1U) != 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += pixel[picture.channels == 3 ? c : 0];
+    ++ambient_count_;
   }
+}
+
+void RunFinder::finish_ambient() {
   for (std::size_t c = 0; c < 3; ++c)
     ambient_[c] =
         ambient_count_ > 0 ? static_cast<float>(ambient_sum_[c]) / static_cast<float>(ambient_count_) : 0;
+}
+
+RunFinder::Runs RunFinder::runs(int profile) const {
+  const auto p = static_cast<std::size_t>(profile), n = count_.size();
+  Runs found;
+  found.count = static_cast<std::size_t>(count_[p]);
+  for (std::size_t i = 0; i < found.count; ++i) found.run[i] = runs_[i * n + p];
+  return found;
 }
 
 void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge_gap, Marker marker,
@@ -66,18 +75,23 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
   words_.resize(static_cast<std::size_t>(words) * static_cast<std::size_t>(picture.height + 1));
   runs_.resize(profiles * kMostRuns);
   count_.assign(profiles, 0);
-  std::fill_n(words_.begin(), words, 0U);
   if (columns) {
     const std::size_t whole = static_cast<std::size_t>(words) * kMaskGroup;
     open_first_.resize(whole);
     open_last_.assign(whole, kNone);
   }
+  const auto take = !columns  ? &RunFinder::take_row
+                    : avx512_ ? &RunFinder::take_columns_avx512
+                              : &RunFinder::take_columns;
+  std::fill_n(words_.begin(), words, 0U);
   marker(picture, rule, words_.data() + words);
   const std::uint32_t* row = words_.data() + words;
-  for (int y = 0; y < picture.height; ++y, row += words)
-    columns ? take_columns(y, row, words) : take_row(y, row, words);
+  for (int y = 0; y < picture.height; ++y, row += words) {
+    (this->*take)(y, row, words);
+    if (want_ambient && y % kAmbientRows == 0) sample_ambient(picture, y, row);
+  }
   if (columns) close_columns(picture.height);
-  if (want_ambient) sample_ambient(picture);
+  finish_ambient();
 }
 
 /// Only where marks begin and end something happens, not at every marked pixel.
@@ -110,7 +124,7 @@ void RunFinder::turn(int y, int x, std::uint32_t before, std::uint32_t now) {
 }
 
 void RunFinder::close_columns(int height) {
-  const std::size_t words = words_.size() / static_cast<std::size_t>(height + 1);
+  const std::size_t words = open_last_.size() / kMaskGroup;
   const std::uint32_t* const last = words_.data() + words * static_cast<std::size_t>(height);
   for (std::size_t w = 0; w < words; ++w)
     for (std::uint32_t open = last[w]; open != 0; open &= open - 1)
@@ -141,18 +155,19 @@ void RunFinder::take_row(int y, const std::uint32_t* words, int count) {
 }
 
 void RunFinder::close(int profile, Run run) {
-  int& count = count_[static_cast<std::size_t>(profile)];
-  Run* const begin = runs_.data() + static_cast<std::size_t>(profile) * kMostRuns;
+  const auto p = static_cast<std::size_t>(profile);
+  int& count = count_[p];
   if (count < kMostRuns) {
-    begin[count++] = run;
+    run_at(p, count++) = run;
     return;
   }
   ++dropped_;
-  Run* const shortest =
-      std::min_element(begin, begin + count, [](Run a, Run b) { return a.length() < b.length(); });
-  if (shortest->length() >= run.length()) return;
-  std::copy(shortest + 1, begin + count, shortest);
-  begin[count - 1] = run;
+  int shortest = 0;
+  for (int i = 1; i < count; ++i)
+    if (run_at(p, i).length() < run_at(p, shortest).length()) shortest = i;
+  if (run_at(p, shortest).length() >= run.length()) return;
+  for (int i = shortest; i + 1 < count; ++i) run_at(p, i) = run_at(p, i + 1);
+  run_at(p, count - 1) = run;
 }
 
 }  // namespace linescope

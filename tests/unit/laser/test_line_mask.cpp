@@ -112,6 +112,25 @@ TEST_P(VectorMask, MarksTheSamePixelsAsThePlainLoop) {
   }
 }
 
+/// Pictures without gaps between rows, in which the rows between those marked together are taken as one.
+TEST_P(VectorMask, MarksTheSamePixelsWhereRowsFollowOneAnother) {
+  unsigned seed = 500;
+  for (const int width : {32, 64, 96, 160}) {
+    for (const int height : {40, 96, 100, 119, 120, 203}) {
+      for (const int ridge : {256, 15}) {
+        MaskRule rule;
+        rule.ridge_threshold = ridge;
+        rule.reach = 10;
+        const Marker marker = GetParam()(rule);
+        if (marker == nullptr) GTEST_SKIP() << "this processor has no such vectors";
+        const Picture p(width, height, 0, ++seed);
+        ASSERT_EQ(marks(marker, p.view, rule), marks(&mark_picture, p.view, rule))
+            << width << " x " << height << ", ridge " << ridge;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Widths, VectorMask,
                          ::testing::Values(&mask_detail::avx2_marker, &mask_detail::avx512_marker),
                          [](const auto& i) { return i.index == 0 ? "Avx2" : "Avx512"; });

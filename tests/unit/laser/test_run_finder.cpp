@@ -47,8 +47,8 @@ TEST(RunFinder, FindsWhatALoopOverEachProfileFinds) {
           200;
   }
   for (const ProfileAxis axis : {ProfileAxis::column, ProfileAxis::row}) {
-    for (const int gap : {0, 3}) {
-      RunFinder finder;
+    for (const auto& [gap, vectors] : {std::pair{0, true}, {0, false}, {3, true}, {3, false}}) {
+      RunFinder finder(vectors);
       finder.find(view_of(picture), green_only(axis), gap, &mark_picture, true);
       for (int p = 0; p < profile_count(view_of(picture), axis); ++p) {
         const auto expected = by_hand(picture, axis, p, gap);
@@ -68,12 +68,14 @@ TEST(RunFinder, KeepsTheLongestOfTooMany) {
   cv::Mat picture(200, 40, CV_8UC3, cv::Scalar::all(0));
   for (int i = 0; i < 12; ++i)  // lengths 1 .. 12, one after the other
     for (int k = 0; k <= i; ++k) picture.at<cv::Vec3b>(15 * i + k, 5)[1] = 200;
-  RunFinder finder;
-  finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_picture, true);
-  const auto found = finder.runs(5);
-  ASSERT_EQ(found.size(), static_cast<std::size_t>(RunFinder::kMostRuns));
-  EXPECT_EQ(finder.dropped(), 4U);
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].length(), static_cast<int>(i) + 5);
+  for (const bool vectors : {true, false}) {
+    RunFinder finder(vectors);
+    finder.find(view_of(picture), green_only(ProfileAxis::column), 0, &mark_picture, true);
+    const auto found = finder.runs(5);
+    ASSERT_EQ(found.size(), static_cast<std::size_t>(RunFinder::kMostRuns));
+    EXPECT_EQ(finder.dropped(), 4U);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].length(), static_cast<int>(i) + 5);
+  }
 }
 
 TEST(RunFinder, AmbientIsTheSceneWithoutTheLine) {

@@ -1,0 +1,78 @@
+// The pixels of up to eight runs of neighbouring profiles, side by side: what sums along a run asks for is
+// computed for all of them at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "acquire/laser/colour_excess.hpp"
+#include "acquire/laser/picture_view.hpp"
+#include "acquire/laser/run_finder.hpp"
+
+namespace linescope {
+
+inline constexpr int kBlockLanes = 8;
+using LaneInts = std::array<std::int32_t, kBlockLanes>;
+
+/// Where the runs lie. Bytes are counted from the picture's first; a pixel is read as the four bytes that
+/// begin with its first.
+struct RunBlock {
+  static constexpr int kLongest = 64;  ///< px; longer runs gain nothing from neighbours and are left out
+
+  int first = 0;  ///< profile of lane 0
+  std::array<Run, kBlockLanes> run{};
+  LaneInts begin{};   ///< of the run's first pixel, bytes
+  LaneInts length{};  ///< px; 0: no run in this lane
+  int longest = 0;    ///< px
+  int step = 0;       ///< bytes from one pixel of a profile to the next
+  const std::uint8_t* picture = nullptr;
+  std::array<int, 3> shift{};  ///< of the channels within the four bytes, in the order of Profile
+
+  /// Profiles [from, from + count) that have a single run.
+  void collect(const PictureView& picture, ProfileAxis axis, int lead, const RunFinder& runs, int from,
+               int count);
+
+  bool holds(int profile, Run r) const {
+    const int lane = profile - first;
+    return lane >= 0 && lane < kBlockLanes && length[static_cast<std::size_t>(lane)] == r.length() &&
+           run[static_cast<std::size_t>(lane)].first == r.first;
+  }
+};
+
+/// The weighted mean's: over the colour excess where it reaches the threshold, 0 elsewhere.
+struct MeanSums {
+  std::int64_t sum = 0;
+  std::int64_t sums = 0;  ///< of the sums so far: each weight as often as there are pixels from it to the end
+  int peak = 1;
+  int saturated = 0;
+};
+struct MeanSumsBlock {
+  LaneInts sum{}, sums{}, peak{}, saturated{};
+  MeanSums of(std::size_t lane) const { return {sum[lane], sums[lane], peak[lane], saturated[lane]}; }
+};
+struct MeanLevels {
+  int threshold = 0, saturation = 255;
+};
+
+/// Over the light of the leading channel above `background`; its brightest pixel is the first of several.
+struct LightSums {
+  int sum = 0;
+  int moment = 0;  ///< of the light, about the run's first pixel
+  int top = 0;     ///< grey levels, background included
+  int excess = 0;  ///< of the brightest pixel
+};
+struct LightSumsBlock {
+  LaneInts sum{}, moment{}, top{}, excess{};
+  LightSums of(std::size_t lane) const { return {sum[lane], moment[lane], top[lane], excess[lane]}; }
+};
+
+/// One run, in plain C++: the definition.
+MeanSums mean_sums(const Profile& profile, Run run, const ColourExcess& excess, MeanLevels levels);
+LightSums light_sums(const Profile& profile, Run run, const ColourExcess& excess, int background);
+
+/// The same for a block by vectors. Precondition: block_sums_known().
+bool block_sums_known();
+void mean_sums(const RunBlock& block, const ColourExcess& excess, MeanLevels levels, MeanSumsBlock& out);
+void light_sums(const RunBlock& block, const ColourExcess& excess, int background, LightSumsBlock& out);
+
+}  // namespace linescope
