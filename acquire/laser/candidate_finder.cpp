@@ -43,7 +43,6 @@ void CandidateFinder::begin(LaserColour colour, const ChannelMeans& scene) {
   excess_ = ColourExcess(colour);
   window_.start(colour, scene, options_.saturation_level);
   neighbours_ = {};
-  block_.length = {};
 }
 
 void CandidateFinder::find(const PictureView& picture, const RunFinder& runs, CandidateList& out,
@@ -51,33 +50,50 @@ void CandidateFinder::find(const PictureView& picture, const RunFinder& runs, Ca
   const Source source{picture, runs, out, noise, leading_channel(options_.colour)};
   const int profiles = profile_count(picture, options_.axis);
   const bool mean = options_.centre == CentreMethod::weighted_mean;
+  length_ = profile_of(picture, options_.axis, source.lead, 0).length;
   out.begin(profiles);
-  for (index_ = 0; index_ < profiles; ++index_) {
-    out.first.push_back(static_cast<int>(out.all.size()));
-    next().profile = -1;
-    if (blocks_ && mean && index_ % kBlockLanes == 0) {
-      block_.collect(picture, options_.axis, source.lead, runs, index_, kBlockLanes);
-      mean_sums(block_, excess_, {options_.colour_threshold, options_.saturation_level}, means_);
-    }
-    if (runs.run_count(index_) == 0) continue;
-    const Profile profile = profile_of(picture, options_.axis, source.lead, index_);
-    length_ = profile.length;
-    RunFinder::Runs found = runs.runs(index_);
-    if (found.count > 1)
-      found.count = merge_across_cores(profile, {found.run.data(), found.count}, options_.max_saturated);
-    const std::span<const Run> merged(found.run.data(), found.count);
-    mean ? find_means(source, profile, merged) : find_shapes(source, profile, merged);
+  for (index_ = 0; index_ < profiles;) {
+    if (at_once_ && (mean ? find_means_at_once(source) : follow_at_once(source))) continue;
+    find_one(source);
+    ++index_;
   }
-  out.first.push_back(static_cast<int>(out.all.size()));
+  begin_profile(out);
+}
+
+void CandidateFinder::find_one(const Source& source) {
+  begin_profile(source.out);
+  next().profile = -1;
+  RunFinder::Runs found = source.runs.runs(index_);
+  if (found.count == 0) return;
+  const Profile profile = profile_of(source.picture, options_.axis, source.lead, index_);
+  if (found.count > 1)
+    found.count = merge_across_cores(profile, {found.run.data(), found.count}, options_.max_saturated);
+  const std::span<const Run> runs(found.run.data(), found.count);
+  options_.centre == CentreMethod::weighted_mean ? find_means(source, profile, runs)
+                                                 : find_shapes(source, profile, runs);
+}
+
+bool CandidateFinder::find_means_at_once(const Source& source) {
+  RunBlock block;
+  block.collect(source.picture, options_.axis, source.lead, source.runs, index_, kBlockLanes);
+  if (block.length[0] == 0) return false;
+  MeanSumsBlock sums;
+  mean_sums(block, excess_, levels_, sums);
+  for (std::size_t lane = 0; lane < kBlockLanes && block.length[lane] > 0; ++lane, ++index_) {
+    const Run run = block.run[lane];
+    begin_profile(source.out);
+    fill_mean_candidate(sums.of(lane), length_, index_, run, options_, source.out.all.emplace_back());
+    if (index_ % kNoiseEvery == 0)
+      source.noise.add(profile_of(source.picture, options_.axis, source.lead, index_), run.last + 3,
+                       run.last + 10);
+  }
+  return true;
 }
 
 void CandidateFinder::find_means(const Source& source, const Profile& profile, std::span<const Run> runs) {
   for (const Run run : runs) {
-    const MeanSums sums =
-        block_.holds(index_, run)
-            ? means_.of(static_cast<std::size_t>(index_ - block_.first))
-            : mean_sums(profile, run, excess_, {options_.colour_threshold, options_.saturation_level});
-    fill_mean_candidate(sums, profile.length, index_, run, options_, source.out.all.emplace_back());
+    fill_mean_candidate(mean_sums(profile, run, excess_, levels_), length_, index_, run, options_,
+                        source.out.all.emplace_back());
     if (index_ % kNoiseEvery == 0) source.noise.add(profile, run.last + 3, run.last + 10);
   }
 }
@@ -87,7 +103,7 @@ void CandidateFinder::find_shapes(const Source& source, const Profile& profile, 
   const auto rivals = std::count_if(runs.begin(), runs.end(), broad);
   for (const Run run : runs) {
     const bool alone = runs.size() == 1 || (rivals == 1 && broad(run));
-    if (alone && follow(source, profile, run)) continue;
+    if (alone && follow(profile, run, source.out)) continue;
     window_.read(profile, run);
     close_look(run, source.out);
     const int begin = window_.begin(), end = begin + window_.size();
@@ -96,36 +112,55 @@ void CandidateFinder::find_shapes(const Source& source, const Profile& profile, 
   }
 }
 
-/// The first of a neighbour's followers asks for all of them.
-LightSums CandidateFinder::light_along(const Source& source, const Profile& profile, Run run) {
-  const Neighbour& n = neighbour();
-  if (blocks_ && n.followers == 0) {
-    block_.collect(source.picture, options_.axis, source.lead, source.runs, index_, kFollowers);
-    light_sums(block_, excess_, n.background, lights_);
-  }
-  return block_.holds(index_, run) ? lights_.of(static_cast<std::size_t>(index_ - block_.first))
-                                   : light_sums(profile, run, excess_, n.background);
+bool CandidateFinder::continues(const Neighbour& n, Run run) const {
+  return n.followers < kFollowers && std::abs(run.first - n.run.first) <= kSame &&
+         std::abs(run.last - n.run.last) <= kSame && run.length() <= kLongest &&
+         std::min<int>(run.first, length_ - 1 - run.last) >= run.length();
 }
 
-bool CandidateFinder::follow(const Source& source, const Profile& profile, Run run) {
-  const Neighbour& n = neighbour();
-  if (n.profile != index_ - 1 || n.followers >= kFollowers) return false;
-  if (std::abs(run.first - n.run.first) > kSame || std::abs(run.last - n.run.last) > kSame ||
-      run.length() > kLongest || std::min<int>(run.first, length_ - 1 - run.last) < run.length())
-    return false;
-  const LightSums light = light_along(source, profile, run);
+bool CandidateFinder::like_the_line(const LightSums& light) const {
   if (light.top >= options_.saturation_level || light.sum == 0) return false;
-  if (light.excess < options_.colour_threshold && !excess_.colourless()) return false;
-  CandidateList& out = source.out;
-  Candidate& c = out.all.emplace_back();
+  return light.excess >= options_.colour_threshold || excess_.colourless();
+}
+
+void CandidateFinder::add_follower(const Neighbour& n, Run run, const LightSums& light,
+                                   CandidateList& out) const {
   // A copy of the one that was looked at, not of the latest: what was just written field by field cannot be
   // read back as a whole without waiting.
-  c = out.all[static_cast<std::size_t>(n.candidate)];
+  Candidate& c = out.all.emplace_back(out.all[static_cast<std::size_t>(n.candidate)]);
   c.profile = index_;
   c.centre = static_cast<float>(run.first) + static_cast<float>(light.moment) / static_cast<float>(light.sum);
   c.peak = static_cast<float>(light.top - n.background);
+}
+
+bool CandidateFinder::follow(const Profile& profile, Run run, CandidateList& out) {
+  const Neighbour& n = neighbour();
+  if (n.profile != index_ - 1 || !continues(n, run)) return false;
+  const LightSums light = light_sums(profile, run, excess_, n.background);
+  if (!like_the_line(light)) return false;
+  add_follower(n, run, light, out);
   next() = {index_, run, n.candidate, n.background, n.followers + 1};
   return true;
+}
+
+bool CandidateFinder::follow_at_once(const Source& source) {
+  Neighbour n = neighbour();
+  if (n.profile != index_ - 1 || n.profile < 0 || !continues(n, source.runs.only_run(index_))) return false;
+  RunBlock block;
+  block.collect(source.picture, options_.axis, source.lead, source.runs, index_, kFollowers - n.followers);
+  LightSumsBlock sums;
+  light_sums(block, excess_, n.background, sums);
+  const int from = index_;
+  for (std::size_t lane = 0; lane < kBlockLanes && block.length[lane] > 0; ++lane, ++index_) {
+    const Run run = block.run[lane];
+    const LightSums light = sums.of(lane);
+    if (!continues(n, run) || !like_the_line(light)) break;
+    begin_profile(source.out);
+    add_follower(n, run, light, source.out);
+    n = {index_, run, n.candidate, n.background, n.followers + 1};
+  }
+  if (index_ > from) neighbours_[static_cast<std::size_t>(n.profile & 1)] = n;
+  return index_ > from;
 }
 
 void CandidateFinder::close_look(Run run, CandidateList& out) {

@@ -23,7 +23,9 @@ namespace linescope {
 class CandidateFinder {
  public:
   explicit CandidateFinder(const LineExtractorOptions& options)
-      : options_(options), excess_(options.colour) {}
+      : options_(options),
+        excess_(options.colour),
+        levels_{options.colour_threshold, options.saturation_level} {}
 
   /// Starts a picture. `colour` is the laser's, or mono for grey pictures; `scene` the mean of the picture
   /// without the laser, in the order of Profile's channels.
@@ -42,11 +44,16 @@ class CandidateFinder {
     NoiseMeter& noise;
     int lead;
   };
+  /// Several profiles from index_ on by vectors, as far as each has one run at most; false: not even one.
+  bool find_means_at_once(const Source& source);
+  bool follow_at_once(const Source& source);
+  /// The profile index_, whatever it holds.
+  void find_one(const Source& source);
   void find_means(const Source& source, const Profile& profile, std::span<const Run> runs);
   void find_shapes(const Source& source, const Profile& profile, std::span<const Run> runs);
   void close_look(Run run, CandidateList& out);
-  bool follow(const Source& source, const Profile& profile, Run run);
-  LightSums light_along(const Source& source, const Profile& profile, Run run);
+  bool follow(const Profile& profile, Run run, CandidateList& out);
+  void begin_profile(CandidateList& out) const { out.first.push_back(static_cast<int>(out.all.size())); }
   Candidate candidate_from(const Hump& hump) const;
   bool has_colour(const Hump& hump) const;
   bool rises_in_colour(const Hump& hump) const;
@@ -60,20 +67,20 @@ class CandidateFinder {
     int background = 0;  ///< grey levels
     int followers = 0;   ///< since the last close look
   };
+  Neighbour& next() { return neighbours_[static_cast<std::size_t>(index_ & 1)]; }
+  const Neighbour& neighbour() const { return neighbours_[static_cast<std::size_t>(~index_ & 1)]; }
+  bool continues(const Neighbour& n, Run run) const;
+  bool like_the_line(const LightSums& light) const;
+  void add_follower(const Neighbour& n, Run run, const LightSums& light, CandidateList& out) const;
 
   LineExtractorOptions options_;
   ColourExcess excess_;
-  int length_ = 0;  ///< of the profile
+  MeanLevels levels_;
+  bool at_once_ = block_sums_known();
+  int length_ = 0;  ///< of the profiles
   int index_ = 0;
   LightWindow window_;
-  Neighbour& next() { return neighbours_[static_cast<std::size_t>(index_ & 1)]; }
-  const Neighbour& neighbour() const { return neighbours_[static_cast<std::size_t>(~index_ & 1)]; }
-
   std::array<Neighbour, 2> neighbours_;  ///< of profiles with even and with odd index
-  bool blocks_ = block_sums_known();
-  RunBlock block_;  ///< sums of these runs are at hand
-  MeanSumsBlock means_;
-  LightSumsBlock lights_;
 };
 
 }  // namespace linescope

@@ -18,11 +18,12 @@ int excess(const std::uint8_t* bgr, unsigned on) {
   return shines - dark;
 }
 
-bool marked(const std::uint8_t* pixel, int lead, const MaskRule& rule, const mask_detail::Sides& sides) {
-  if (rule.colour_threshold < 256 && excess(pixel, rule.on) >= rule.colour_threshold) return true;
-  if (!sides.any()) return false;
+/// `ridge_threshold`: 256 where no side is asked.
+bool marked(const std::uint8_t* pixel, int lead, const MaskRule& rule, const mask_detail::Sides& sides,
+            int ridge_threshold) {
   const int around = std::max<int>(pixel[lead + sides.before], pixel[lead + sides.after]);
-  return pixel[lead] - around >= rule.ridge_threshold;
+  const bool ridge = pixel[lead] - around >= ridge_threshold;
+  return ridge | (excess(pixel, rule.on) >= rule.colour_threshold);
 }
 
 }  // namespace
@@ -59,7 +60,9 @@ std::uint32_t mark_group(const PictureView& p, const MaskRule& rule, int y, int 
     }
     return bits;
   }
-  for (int i = 0; i < n; ++i) bits |= std::uint32_t{marked(pixel + 3 * i, lead, rule, sides)} << i;
+  const int ridge_threshold = sides.any() ? rule.ridge_threshold : 256;
+  for (int i = 0; i < n; ++i)
+    bits |= std::uint32_t{marked(pixel + 3 * i, lead, rule, sides, ridge_threshold)} << i;
   return bits;
 }
 

@@ -31,12 +31,6 @@ struct RunBlock {
   /// Profiles [from, from + count) that have a single run.
   void collect(const PictureView& picture, ProfileAxis axis, int lead, const RunFinder& runs, int from,
                int count);
-
-  bool holds(int profile, Run r) const {
-    const int lane = profile - first;
-    return lane >= 0 && lane < kBlockLanes && length[static_cast<std::size_t>(lane)] == r.length() &&
-           run[static_cast<std::size_t>(lane)].first == r.first;
-  }
 };
 
 /// The weighted mean's: over the colour excess where it reaches the threshold, 0 elsewhere.
