@@ -15,6 +15,8 @@ struct alignas(32) MomentSums {
   std::array<std::int64_t, 4> squares{};   ///< xx yy zz; the fourth counts points
   std::array<std::int64_t, 4> products{};  ///< xy yz zx; the fourth counts points, too
 
+  friend bool operator==(const MomentSums&, const MomentSums&) = default;
+
   std::int64_t weight() const { return first[3]; }
   std::int64_t points() const { return squares[3]; }
 

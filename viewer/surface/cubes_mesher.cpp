@@ -36,7 +36,7 @@ void CubesMesher::add_line(const SurfaceLine& line) {
   if (sweeps_.begins_with(line.time)) grid_.begin_sweep();
   const std::uint64_t before = counters_.points;
   for_each_tile(placed.points, placed.bounds, kToNearestVertex,
-                [&](std::span<const PlacedPoint> part, const TileBox& box) {
+                [&](std::span<const PlacedBlock> part, const TileBox& box) {
                   count_points(part, kToNearestVertex, box, tile_.data());
                   for (int i = 0; i < box.volume(); ++i) {
                     const std::uint32_t found = std::exchange(tile_[static_cast<std::size_t>(i)], 0);

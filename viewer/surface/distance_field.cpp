@@ -29,13 +29,11 @@ std::int64_t fixed(double value, double unit) {
   return static_cast<std::int64_t>(scaled + (scaled < 0 ? -0.5 : 0.5));
 }
 
-// One patch's say about its four columns of vertices.
+// One patch's say about its four columns of vertices; of those sums that differ from vertex to vertex only
+// what is common.
 struct Stamp {
-  std::int64_t weight;
-  std::array<std::int64_t, 3> normal;
-  std::array<std::int64_t, 3> centre;  // not yet weighted, from the cube's lowest corner
-  std::int64_t deviation;
-  std::int64_t points;
+  VertexSums sums;    // centre: of the points from the cube's lowest corner
+  std::int64_t rise;  // of the distance, per interval along the axis; not weighted
 };
 
 // Patches over the axis the normal points along count most: 64 times as much as those half as steep that just
@@ -44,14 +42,13 @@ Stamp stamp_of(const SurfacePatch& patch, int sign) {
   const double along = patch.normal[static_cast<std::size_t>(patch.axis)], squared = along * along;
   const double counted = patch.weight / kTypicalWeight * squared * squared * squared;
   const std::int64_t weight = sign * std::clamp<std::int64_t>(fixed(counted, kWeightUnit), 1, kMaxWeight);
-  Stamp stamp{weight,
-              {},
-              {},
-              weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit),
-              sign * fixed(patch.points, 1)};
+  Stamp stamp{{}, fixed(along, kDistanceUnit)};
+  stamp.sums.weight = weight;
+  stamp.sums.deviation = weight * fixed(std::min(patch.deviation, 100.0), kDistanceUnit);
+  stamp.sums.points = sign * fixed(patch.points, 1);
   for (std::size_t i = 0; i < 3; ++i) {
-    stamp.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
-    stamp.centre[i] = fixed(patch.centre[i], kDistanceUnit);
+    stamp.sums.normal[i] = weight * fixed(patch.normal[i], kNormalUnit);
+    stamp.sums.centre[i] = weight * fixed(patch.centre[i], kDistanceUnit);
   }
   return stamp;
 }
@@ -74,50 +71,74 @@ GridIndex plus(GridIndex at, int axis, int step) {
 
 }  // namespace
 
+void VertexSums::add(const VertexSums& other) {
+  weight += other.weight;
+  distance += other.distance;
+  for (std::size_t i = 0; i < 3; ++i) {
+    normal[i] += other.normal[i];
+    centre[i] += other.centre[i];
+  }
+  deviation += other.deviation;
+  points += other.points;
+}
+
 void DistanceField::apply(const MomentCell& cell, const SurfacePatch& patch, int sign) {
   const Stamp stamp = stamp_of(patch, sign);
-  const auto h = static_cast<std::size_t>(patch.axis);
-  const int u = (patch.axis + 1) % 3, v = (patch.axis + 2) % 3;
+  const auto h = static_cast<std::size_t>(patch.axis), u = (h + 1) % 3, v = (h + 2) % 3;
   const double along = patch.normal[h];
-  const double slope = (std::abs(patch.normal[static_cast<std::size_t>(u)]) +
-                        std::abs(patch.normal[static_cast<std::size_t>(v)])) /
-                       std::abs(along);
+  const double slope = (std::abs(patch.normal[u]) + std::abs(patch.normal[v])) / std::abs(along);
   const double reach = std::min(1.0 + slope, 3.0);
-  const std::int64_t rise = fixed(along, kDistanceUnit);  // of the distance, per interval along the axis
-  for (int corner = 0; corner < 4; ++corner) {
-    const double height = patch.height[static_cast<std::size_t>(corner)];
+  const std::int64_t weight = stamp.sums.weight, step = weight * kDistanceStep;
+  VertexSums one_up;
+  one_up.distance = weight * stamp.rise;
+  one_up.centre[h] = -step;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const double height = patch.height[corner];
     if (!(std::abs(height) < 2 * kPatchReach)) continue;
-    const GridIndex foot = plus(plus(cell.at, u, corner & 1), v, corner >> 1);
+    const int du = static_cast<int>(corner & 1), dv = static_cast<int>(corner >> 1);
     const int low = static_cast<int>(std::floor(height - reach)),
               high = static_cast<int>(std::ceil(height + reach));
-    const std::int64_t at_foot = fixed(-height * along, kDistanceUnit);
-    for (int k = low; k <= high; ++k) {
-      const std::int32_t number = vertex_at(plus(foot, patch.axis, k));
-      FieldVertex& vertex = vertices_[number];
-      VertexSums& sums = vertex.sums;
-      sums.weight += stamp.weight;
-      sums.distance += stamp.weight * (at_foot + k * rise);
-      sums.deviation += stamp.deviation;
-      sums.points += stamp.points;
-      const std::array<int, 3> from_cell{vertex.at.x - cell.at.x, vertex.at.y - cell.at.y,
-                                         vertex.at.z - cell.at.z};
-      for (std::size_t i = 0; i < 3; ++i) {
-        sums.normal[i] += stamp.normal[i];
-        sums.centre[i] += stamp.weight * (stamp.centre[i] - from_cell[i] * kDistanceStep);
-      }
-      if (vertex.changed) continue;
-      vertex.changed = true;
-      changed_.push_back(number);
-    }
+    VertexSums sums = stamp.sums;
+    sums.distance = weight * (fixed(-height * along, kDistanceUnit) + low * stamp.rise);
+    sums.centre[u] -= du * step;
+    sums.centre[v] -= dv * step;
+    sums.centre[h] -= low * step;
+    const GridIndex foot = plus(plus(cell.at, static_cast<int>(u), du), static_cast<int>(v), dv);
+    add_column(plus(foot, patch.axis, low), patch.axis, high - low + 1, sums, one_up);
   }
 }
 
-std::int32_t DistanceField::vertex_at(GridIndex at) {
-  SparseIndex::Block& block = index_.block(block_of(at));
-  std::int32_t& number = block.number[static_cast<std::size_t>(local_of(at))];
+// To so many vertices one on the other, from the lowest on; each gets `one_up` more than the one below.
+void DistanceField::add_column(GridIndex lowest, int axis, int count, VertexSums sums,
+                               const VertexSums& one_up) {
+  const int step = 1 << kBlockBits * axis;  // of the place in a block
+  GridIndex at = lowest;
+  while (count > 0) {
+    SparseIndex::Block& block = index_.block(block_of(at));
+    int local = local_of(at);
+    const int rows = std::min(count, kBlockSize - (local >> kBlockBits * axis & (kBlockSize - 1)));
+    for (int k = 0; k < rows; ++k, local += step) {
+      add(vertex_at(block, local), sums);
+      sums.add(one_up);
+    }
+    count -= rows;
+    at = plus(at, axis, rows);
+  }
+}
+
+void DistanceField::add(std::int32_t number, const VertexSums& sums) {
+  FieldVertex& vertex = vertices_[number];
+  vertex.sums.add(sums);
+  if (vertex.changed) return;
+  vertex.changed = true;
+  changed_.push_back(number);
+}
+
+std::int32_t DistanceField::vertex_at(SparseIndex::Block& block, int local) {
+  std::int32_t& number = block.number[static_cast<std::size_t>(local)];
   if (number != SparseIndex::kNone) return number;
   number = vertices_.add();
-  vertices_[number].at = at;
+  vertices_[number].at = grid_of(block.at, local);
   vertices_[number].block = &block;
   return number;
 }
@@ -129,16 +150,22 @@ std::array<std::int32_t, 8> DistanceField::corners_of(const FieldVertex& low) co
 void DistanceField::update() {
   ++round_;
   for (const std::int32_t number : changed_) evaluate(vertices_[number]);
-  for (const std::int32_t number : changed_) {
-    const FieldVertex& at = vertices_[number];
-    for (const std::int32_t low : SparseIndex::corners(*at.block, at.at, -1)) {
-      if (low == SparseIndex::kNone || vertices_[low].round == round_) continue;
-      vertices_[low].round = round_;
-      find_case(vertices_[low]);
-    }
+  if (changed_.size() == vertices_.size()) {
+    for (const std::int32_t number : changed_) find_case(vertices_[number]);
+  } else {
+    for (const std::int32_t number : changed_) find_cases_near(vertices_[number]);
   }
   for (const std::int32_t number : changed_) vertices_[number].changed = false;
   changed_.clear();
+}
+
+// Those of the eight cubes that have the vertex as a corner, each once in an update.
+void DistanceField::find_cases_near(const FieldVertex& vertex) {
+  for (const std::int32_t low : SparseIndex::corners(*vertex.block, vertex.at, -1)) {
+    if (low == SparseIndex::kNone || vertices_[low].round == round_) continue;
+    vertices_[low].round = round_;
+    find_case(vertices_[low]);
+  }
 }
 
 void DistanceField::evaluate(FieldVertex& vertex) {

@@ -17,6 +17,8 @@ namespace linescope {
 
 /// What the patches say about a grid vertex, in fixed point (see distance_field.cpp for the units).
 struct VertexSums {
+  void add(const VertexSums& other);
+
   std::int64_t weight = 0;
   std::int64_t distance = 0;
   std::array<std::int64_t, 3> normal{};
@@ -26,8 +28,7 @@ struct VertexSums {
 };
 
 /// The same as values.
-struct FieldVertex {
-  VertexSums sums;
+struct alignas(64) FieldVertex {
   GridIndex at;
   float distance = 0;   ///< intervals, positive on the side it was seen from
   float support = 0;    ///< intervals to the border of what was seen, to first order; negative beyond
@@ -38,6 +39,7 @@ struct FieldVertex {
   std::uint8_t corners = 0;                   ///< case of the cube above this vertex (0: no surface there)
   bool known = false;                         ///< patches reach it and agree on the side
   bool changed = false;
+  VertexSums sums;
 };
 
 class DistanceField final : public PatchListener {
@@ -67,7 +69,10 @@ class DistanceField final : public PatchListener {
 
  private:
   void apply(const MomentCell& cell, const SurfacePatch& patch, int sign);
-  std::int32_t vertex_at(GridIndex at);
+  void add_column(GridIndex lowest, int axis, int count, VertexSums sums, const VertexSums& one_up);
+  std::int32_t vertex_at(SparseIndex::Block& block, int local);
+  void add(std::int32_t vertex, const VertexSums& sums);
+  void find_cases_near(const FieldVertex& vertex);
   void evaluate(FieldVertex& vertex);
   void find_case(FieldVertex& vertex);
 

@@ -2,36 +2,35 @@
 
 #include <algorithm>
 
-#include "viewer/surface/point_tile.hpp"
-
 namespace linescope {
 
 MomentGrid::MomentGrid(double interval, std::size_t max_memory)
-    : interval_(interval), max_memory_(max_memory), tile_(kMaxTile) {}
+    : interval_(interval), max_memory_(max_memory) {}
 
 void MomentGrid::begin_sweep() {
   ++sweep_;
-  sweep_begins_.push_back(journal_.size());
+  sweep_begins_.push_back({journal_.size(), filled_.size()});
 }
 
 std::uint64_t MomentGrid::add_line(const PlacedLine& line, const Eigen::Vector3d& seen_from) {
   ++line_;
   line_cells_.clear();
   std::uint64_t used = 0;
-  for_each_tile(line.points, line.bounds, 0, [&](std::span<const PlacedPoint> part, const TileBox& box) {
-    add_moments(part, box, tile_.data());
-    for (int i = 0; i < box.volume(); ++i) {
-      MomentSums& sums = tile_[static_cast<std::size_t>(i)];
-      if (sums.points() == 0) continue;
-      if (add_to_line(line.corner + box.place(i), sums)) used += static_cast<std::uint64_t>(sums.points());
-      sums = {};
-    }
+  for_each_tile(line.points, line.bounds, 0, [&](std::span<const PlacedBlock> part, const TileBox& box) {
+    for (; !part.empty(); part = part.subspan(std::min(part.size(), MomentTile::kBatch)))
+      for (const auto& [place, sums] : tile_.sums(part.first(std::min(part.size(), MomentTile::kBatch)), box))
+        if (add_to_cell(line.corner + box.place(place), sums))
+          used += static_cast<std::uint64_t>(sums.points());
   });
   const Eigen::Vector3d direction = towards_camera(seen_from);
-  for (const LineCell& part : line_cells_) merge(part, direction);
+  const Eigen::Vector3i towards = (256 * direction).cast<std::int32_t>();
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
-  for (const LineCell& part : line_cells_) book_part(part, axis);
+  for (const LineCell& part : line_cells_) {
+    auto& sum = cells_[part.cell].content.towards;
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += towards[static_cast<Eigen::Index>(i)];
+    book_part(part, axis);
+  }
   return used;
 }
 
@@ -48,7 +47,7 @@ void MomentGrid::book_part(const LineCell& lowest, int axis) {
   std::int64_t most = 0, height = 0, height_of_most = 0;
   MomentCell* holder = nullptr;
   for (MomentCell* cell = &cells_[lowest.cell]; cell != nullptr; cell = in_line(cell->near[up]), ++height) {
-    const auto& first = line_cells_[static_cast<std::size_t>(cell->line_slot)].sums.first;
+    const auto& first = line_cells_[static_cast<std::size_t>(cell->line_slot)].first;
     for (std::size_t i = 0; i < 4; ++i) part[i] += first[i];
     part[static_cast<std::size_t>(axis)] += first[3] * height * kSteps;
     if (first[3] <= most) continue;
@@ -60,18 +59,32 @@ void MomentGrid::book_part(const LineCell& lowest, int axis) {
   holder->content.parts.add(part);
 }
 
-bool MomentGrid::add_to_line(GridIndex at, const MomentSums& sums) {
+bool MomentGrid::add_to_cell(GridIndex at, const MomentSums& sums) {
   const std::int32_t number = cell_at(at);
   if (number == SparseIndex::kNone) return false;
   MomentCell& cell = cells_[number];
-  if (cell.line == line_) {
-    line_cells_[static_cast<std::size_t>(cell.line_slot)].sums.add(sums);
-    return true;
+  if (cell.line != line_) begin_line_in(number);
+  auto& first = line_cells_[static_cast<std::size_t>(cell.line_slot)].first;
+  for (std::size_t i = 0; i < 4; ++i) first[i] += sums.first[i];
+  cell.content.sums.add(sums);
+  return true;
+}
+
+void MomentGrid::begin_line_in(std::int32_t number) {
+  MomentCell& cell = cells_[number];
+  if (cell.sweep != sweep_) {
+    cell.sweep = sweep_;
+    if (cell.occupied())
+      journal_[journal_.add()] = {number, cell.content};
+    else
+      filled_.push_back(number);
   }
+  if (!cell.occupied()) ++occupied_;
+  ++cell.content.lines;
   cell.line = line_;
   cell.line_slot = static_cast<std::int32_t>(line_cells_.size());
-  line_cells_.push_back({number, sums});
-  return true;
+  line_cells_.push_back({number, {}});
+  flag_changed(number);
 }
 
 // One direction for the whole line, from the middle of its cubes: it only has to tell one side from the
@@ -84,20 +97,6 @@ Eigen::Vector3d MomentGrid::towards_camera(const Eigen::Vector3d& seen_from) con
   }
   middle = (middle / std::max(1.0, static_cast<double>(line_cells_.size()))).array() + 0.5;
   return (seen_from / interval_ - middle).normalized();
-}
-
-void MomentGrid::merge(const LineCell& part, const Eigen::Vector3d& towards) {
-  MomentCell& cell = cells_[part.cell];
-  if (cell.sweep != sweep_) {
-    journal_[journal_.add()] = {part.cell, cell.content};
-    cell.sweep = sweep_;
-  }
-  if (!cell.occupied()) ++occupied_;
-  cell.content.sums.add(part.sums);
-  ++cell.content.lines;
-  for (std::size_t i = 0; i < 3; ++i)
-    cell.content.towards[i] += static_cast<std::int32_t>(256 * towards[static_cast<Eigen::Index>(i)]);
-  flag_changed(part.cell);
 }
 
 void MomentGrid::flag_changed(std::int32_t number) {
@@ -113,17 +112,26 @@ void MomentGrid::forget_changes() {
 
 std::int64_t MomentGrid::remove_last_sweep() {
   if (sweep_begins_.empty()) return -1;
+  const auto [journal, filled] = sweep_begins_.back();
   std::int64_t removed = 0;
-  for (std::size_t i = sweep_begins_.back(); i < journal_.size(); ++i) {
+  for (std::size_t i = journal; i < journal_.size(); ++i) {
     const auto& [number, before] = journal_[static_cast<std::int32_t>(i)];
-    MomentCell& cell = cells_[number];
-    removed += cell.content.sums.points() - before.sums.points();
-    if (!before.occupied()) --occupied_;
-    cell.content = before;
-    flag_changed(number);
+    removed += put_back(number, before);
   }
-  journal_.shrink(sweep_begins_.back());
+  for (std::size_t i = filled; i < filled_.size(); ++i) removed += put_back(filled_[i], {});
+  journal_.shrink(journal);
+  filled_.resize(filled);
   sweep_begins_.pop_back();
+  return removed;
+}
+
+// How many points that takes out.
+std::int64_t MomentGrid::put_back(std::int32_t number, const CellContent& before) {
+  CellContent& now = cells_[number].content;
+  const std::int64_t removed = now.sums.points() - before.sums.points();
+  if (now.occupied() && !before.occupied()) --occupied_;
+  now = before;
+  flag_changed(number);
   return removed;
 }
 
@@ -132,6 +140,7 @@ void MomentGrid::clear() {
   cells_.clear();
   changed_.clear();
   journal_.clear();
+  filled_.clear();
   sweep_begins_.clear();
   occupied_ = 0;
 }
@@ -151,20 +160,14 @@ std::int32_t MomentGrid::cell_at(GridIndex at) {
 
 void MomentGrid::link(const SparseIndex::Block& block, std::int32_t number) {
   MomentCell& cell = cells_[number];
-  const int x = cell.at.x & 7, y = cell.at.y & 7, z = cell.at.z & 7;
-  const auto within = [](int i) { return i > 0 && i + 1 < kBlockSize; };
-  const bool in_block = within(x) && within(y) && within(z);
-  for (int slot = 0; slot < 27; ++slot) {
-    const GridIndex place{x + slot % 3 - 1, y + slot / 3 % 3 - 1, z + slot / 9 - 1};
-    const std::int32_t other = in_block ? block.number[static_cast<std::size_t>(local_of(place))]
-                                        : SparseIndex::near(block, place.x, place.y, place.z);
-    cell.near[static_cast<std::size_t>(slot)] = other;
-    if (other != SparseIndex::kNone) cells_[other].near[static_cast<std::size_t>(26 - slot)] = number;
-  }
+  SparseIndex::numbers_around(block, cell.at, cell.near);
+  for (std::size_t slot = 0; slot < 27; ++slot)
+    if (cell.near[slot] != SparseIndex::kNone) cells_[cell.near[slot]].near[26 - slot] = number;
 }
 
 std::size_t MomentGrid::memory_bytes() const {
-  return index_.memory_bytes() + cells_.size() * sizeof(MomentCell) + journal_.size() * sizeof(CellBefore);
+  return index_.memory_bytes() + cells_.size() * sizeof(MomentCell) + journal_.size() * sizeof(CellBefore) +
+         filled_.size() * sizeof(std::int32_t);
 }
 
 }  // namespace linescope

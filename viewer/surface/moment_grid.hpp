@@ -9,6 +9,7 @@
 #include "viewer/surface/cell_moments.hpp"
 #include "viewer/surface/chunked_pool.hpp"
 #include "viewer/surface/line_quantizer.hpp"
+#include "viewer/surface/point_tile.hpp"
 #include "viewer/surface/sparse_index.hpp"
 
 namespace linescope {
@@ -53,23 +54,25 @@ class MomentGrid {
   std::size_t memory_bytes() const;
 
  private:
-  /// A cube as it was before a sweep touched it.
+  /// A cube as it was before a sweep touched it, unless it was empty.
   struct CellBefore {
     std::int32_t cell = 0;
     CellContent content;
   };
+  /// What the line being taken in has in a cube.
   struct LineCell {
     std::int32_t cell = 0;
-    MomentSums sums;
+    std::array<std::int64_t, 4> first{};  ///< as MomentSums
   };
 
   std::int32_t cell_at(GridIndex at);
   void link(const SparseIndex::Block& block, std::int32_t cell);
-  bool add_to_line(GridIndex at, const MomentSums& sums);
+  bool add_to_cell(GridIndex at, const MomentSums& sums);
+  void begin_line_in(std::int32_t cell);
   Eigen::Vector3d towards_camera(const Eigen::Vector3d& seen_from) const;
-  void merge(const LineCell& part, const Eigen::Vector3d& towards);
   void book_part(const LineCell& lowest, int axis);
   void flag_changed(std::int32_t cell);
+  std::int64_t put_back(std::int32_t cell, const CellContent& before);
 
   double interval_;
   std::size_t max_memory_;
@@ -77,9 +80,13 @@ class MomentGrid {
   ChunkedPool<MomentCell> cells_;
   std::vector<std::int32_t> changed_;
   ChunkedPool<CellBefore> journal_;
-  std::vector<std::size_t> sweep_begins_;  // in journal_
-  std::vector<MomentSums> tile_;           // all zero between lines
-  std::vector<LineCell> line_cells_;       // the line being taken in
+  std::vector<std::int32_t> filled_;  // cubes that were empty before a sweep touched them
+  struct SweepBegin {
+    std::size_t journal, filled;
+  };
+  std::vector<SweepBegin> sweep_begins_;  // in journal_ and filled_
+  MomentTile tile_;
+  std::vector<LineCell> line_cells_;  // the line being taken in
   std::uint32_t sweep_ = 0;
   std::uint32_t line_ = 0;
   std::size_t occupied_ = 0;

@@ -1,8 +1,5 @@
 #include "viewer/surface/patch_map.hpp"
 
-#include <cmath>
-#include <cstdlib>
-
 namespace linescope {
 namespace {
 
@@ -56,10 +53,10 @@ PatchMap::PatchMap(const MesherOptions& options) {
 
 void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   while (records_.size() < grid.cell_count()) records_.add();
+  runs_.begin_round(grid);
   affected_.clear();
   waiting_.clear();
-  for (const std::int32_t cell : grid.changed())
-    records_[cell].statistics = statistics_of(grid.cell(cell).content);
+  for (const std::int32_t cell : grid.changed()) runs_.cell(cell) = statistics_of(grid.cell(cell).content);
   const bool all = collect_affected(grid);
   for (const std::int32_t cell : affected_)
     for (int axis = 0; axis < 3; ++axis)
@@ -80,14 +77,8 @@ void PatchMap::let_borrowers_wait(const MomentGrid& grid) {
       if (other != kNone) let_wait(other, records_[other].border & records_[cell].redo);
 }
 
-// The same as linked(), if it holds points.
-std::int32_t PatchMap::occupied_near(const MomentCell& from, int axis, int column, int height) const {
-  const std::int32_t number = linked(from, axis, column, height);
-  return number != kNone && records_[number].statistics.points != 0 ? number : kNone;
-}
-
 // A patch depends on the stretches of cubes, in the nine columns around its cube, that begin next to it
-// (gather_column). The other way round: a changed cube affects all cubes next to it, and those farther along
+// (column_of). The other way round: a changed cube affects all cubes next to it, and those farther along
 // an axis only through cubes that lead there. In its own column it also decides who is the middle; in the
 // others only middles care. Cubes emptied by an undo still lead, so nothing is missed.
 bool PatchMap::collect_affected(const MomentGrid& grid) {
@@ -151,7 +142,7 @@ void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, Patc
   const unsigned bit = 1u << axis;
   record.middle = static_cast<std::uint8_t>(record.middle & ~bit);
   record.border = static_cast<std::uint8_t>(record.border & ~bit);
-  if (record.statistics.points == 0 || !is_middle_of_column(grid, number, axis)) return;
+  if (!runs_.occupied(number) || !is_middle_of_column(grid, number, axis)) return;
   record.middle = static_cast<std::uint8_t>(record.middle | bit);
   const PatchInput input = input_of(grid, number, axis);
   PatchFit fit(input, options_);
@@ -193,52 +184,49 @@ std::int32_t PatchMap::free_patch() {
   return number;
 }
 
-// The cube in which the mean of its stretch of occupied cubes lies. A stretch as long as the reach is no
-// height: the surface runs along the axis there.
-bool PatchMap::is_middle_of_column(const MomentGrid& grid, std::int32_t number, int axis) const {
-  const auto a = static_cast<std::size_t>(axis);
-  double weight = records_[number].statistics.weight, height = weight * records_[number].statistics.mean[a];
-  for (const int direction : {-1, 1}) {
-    std::int32_t at = number;
-    for (int h = direction;; h += direction) {
-      at = occupied_near(grid.cell(at), axis, kOwnColumn, direction);
-      if (at == kNone) break;
-      if (std::abs(h) == kPatchReach) return false;
-      const CellStatistics& s = records_[at].statistics;
-      weight += s.weight;
-      height += s.weight * (s.mean[a] + h);
-    }
-  }
-  return height >= 0 && height < weight;
+bool PatchMap::is_middle_of_column(const MomentGrid& grid, std::int32_t number, int axis) {
+  const ColumnRuns::Place place = runs_.find(grid, number, axis);
+  return place.run != nullptr && place.run->middle == place.height;
 }
 
 // Of a column beside the middle cube the stretch of occupied cubes that begins at its height or one off.
-void PatchMap::gather_column(const MomentGrid& grid, std::int32_t middle, int axis, int i,
-                             PatchColumn& column) const {
-  std::int32_t seed = kNone;
-  int height = 0;
-  for (const int h : {0, 1, -1}) {
-    if (seed != kNone) break;
-    seed = occupied_near(grid.cell(middle), axis, i, h);
-    height = h;
+PatchColumn PatchMap::column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i) {
+  for (const int height : {0, 1, -1}) {
+    const std::int32_t seed = linked(grid.cell(middle), axis, i, height);
+    if (seed == kNone || !runs_.occupied(seed)) continue;
+    const ColumnRuns::Place place = runs_.find(grid, seed, axis);
+    if (place.run == nullptr) return clipped_column(grid, seed, height, axis, i);
+    const int base = height - place.height, top = base + place.run->stack.count - 1;
+    if (base < -kPatchReach || top > kPatchReach) return clipped_column(grid, seed, height, axis, i);
+    if (!place.run->merged) place.run->statistics = merged(place.run->stack, axis);
+    place.run->merged = true;
+    return {&place.run->stack, &place.run->statistics, base};
   }
-  if (seed == kNone) return;
-  column.add({&records_[seed].statistics, offset_along(axis, i, height)});
-  for (const int direction : {-1, 1}) {
-    std::int32_t at = seed;
-    for (int h = height + direction; std::abs(h) <= kPatchReach; h += direction) {
-      at = occupied_near(grid.cell(at), axis, kOwnColumn, direction);
-      if (at == kNone) break;
-      column.add({&records_[at].statistics, offset_along(axis, i, h)});
-    }
-  }
+  return {};
 }
 
-PatchInput PatchMap::input_of(const MomentGrid& grid, std::int32_t number, int axis) const {
+// The same of a stretch that is longer than the patch reaches.
+PatchColumn PatchMap::clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis, int i) {
+  const auto next = [&](std::int32_t from, int direction) {
+    const std::int32_t other = linked(grid.cell(from), axis, kOwnColumn, direction);
+    return other != kNone && runs_.occupied(other) ? other : kNone;
+  };
+  std::int32_t at = seed;
+  for (std::int32_t below = next(at, -1); below != kNone && height > -kPatchReach; below = next(at, -1)) {
+    at = below;
+    --height;
+  }
+  ColumnRun& run = clipped_[static_cast<std::size_t>(i)];
+  run.stack.count = 0;
+  for (int h = height; at != kNone && h <= kPatchReach; at = next(at, 1), ++h) run.stack.add(&runs_.cell(at));
+  run.statistics = merged(run.stack, axis);
+  return {&run.stack, &run.statistics, height};
+}
+
+PatchInput PatchMap::input_of(const MomentGrid& grid, std::int32_t number, int axis) {
   PatchInput input;
   input.axis = axis;
-  for (int i = 0; i < 9; ++i)
-    gather_column(grid, number, axis, i, input.columns[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 9; ++i) input.columns[static_cast<std::size_t>(i)] = column_of(grid, number, axis, i);
   return input;
 }
 
@@ -252,6 +240,7 @@ bool PatchMap::carries_surface(const MomentGrid& grid, std::int32_t number) cons
 }
 
 void PatchMap::clear() {
+  runs_.clear();
   records_.clear();
   patches_.clear();
   unused_patches_.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/surface/chunked_pool.hpp"
+#include "viewer/surface/column_runs.hpp"
 #include "viewer/surface/moment_grid.hpp"
 #include "viewer/surface/surface_patch.hpp"
 
@@ -33,13 +34,12 @@ class PatchMap {
 
   void clear();
   std::size_t memory_bytes() const {
-    return records_.size() * sizeof(Record) + patches_.size() * sizeof(SurfacePatch);
+    return runs_.memory_bytes() + records_.size() * sizeof(Record) + patches_.size() * sizeof(SurfacePatch);
   }
 
  private:
   static constexpr std::int32_t kNone = SparseIndex::kNone;
   struct Record {
-    CellStatistics statistics;
     std::array<std::int32_t, 3> patch{kNone, kNone, kNone};  ///< per axis: number in patches_
     std::uint8_t middle =
         0;  ///< bit a: the cube was the middle of its column along axis a when last looked at
@@ -52,7 +52,6 @@ class PatchMap {
   bool collect_affected(const MomentGrid& grid);
   void collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction);
   void let_borrowers_wait(const MomentGrid& grid);
-  std::int32_t occupied_near(const MomentCell& from, int axis, int column, int height) const;
   void visit(std::int32_t cell, unsigned axes);
   void drop(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
   void refit(const MomentGrid& grid, std::int32_t cell, int axis, PatchListener& listener);
@@ -61,14 +60,17 @@ class PatchMap {
             PatchListener& listener);
   void let_wait(std::int32_t cell, unsigned axes);
   CurvaturePrior lent_curvature(const MomentGrid& grid, std::int32_t cell, int axis) const;
-  PatchInput input_of(const MomentGrid& grid, std::int32_t cell, int axis) const;
-  bool is_middle_of_column(const MomentGrid& grid, std::int32_t cell, int axis) const;
-  void gather_column(const MomentGrid& grid, std::int32_t middle, int axis, int i, PatchColumn& column) const;
+  PatchInput input_of(const MomentGrid& grid, std::int32_t cell, int axis);
+  bool is_middle_of_column(const MomentGrid& grid, std::int32_t cell, int axis);
+  PatchColumn column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i);
+  PatchColumn clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis, int i);
   std::int32_t free_patch();
 
   PatchOptions options_;
-  double curvature_variance_;    // expected of d and f, intervals^-2
-  ChunkedPool<Record> records_;  // by number of cube
+  double curvature_variance_;  // expected of d and f, intervals^-2
+  ColumnRuns runs_;
+  std::array<ColumnRun, 9> clipped_;  // of the patch being fitted: columns that reach farther than it looks
+  ChunkedPool<Record> records_;       // by number of cube
   ChunkedPool<SurfacePatch> patches_;
   std::vector<std::int32_t> unused_patches_;
   std::vector<std::int32_t> affected_;

@@ -9,6 +9,7 @@ SparseIndex::Block& SparseIndex::block(GridIndex coordinate) {
   if (added) {
     Block& fresh = blocks_[blocks_.add()];
     fresh.number.fill(kNone);
+    fresh.at = coordinate;
     for (std::size_t slot = 0; slot < 27; ++slot) {
       const std::int32_t other = table_.neighbours(number)[slot];
       fresh.near[slot] = other == kNone ? nullptr : &blocks_[other];

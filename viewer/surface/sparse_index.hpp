@@ -17,6 +17,7 @@ class SparseIndex {
 
   struct Block {
     std::array<std::int32_t, kBlockCells> number;  ///< of the record at each place, or kNone
+    GridIndex at;                                  ///< its coordinate
     std::array<Block*, 27> near;                   ///< the blocks around (neighbour_slot), null where none
   };
 
@@ -31,6 +32,22 @@ class SparseIndex {
     const int slot = neighbour_slot(x >> kBlockBits, y >> kBlockBits, z >> kBlockBits);
     const Block* at = block.near[static_cast<std::size_t>(slot)];
     return at == nullptr ? kNone : at->number[static_cast<std::size_t>(local_of({x, y, z}))];
+  }
+
+  /// The numbers at a place of the block and at the 26 places around it, by neighbour_slot.
+  static void numbers_around(const Block& block, GridIndex at, std::array<std::int32_t, 27>& numbers) {
+    const auto next = [](std::int32_t i, std::int32_t step) { return (i & 7) + step; };
+    std::size_t slot = 0;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy) {
+        const int y = next(at.y, dy), z = next(at.z, dz);
+        const int row = local_of({0, y, z}), blocks = neighbour_slot(-1, y >> kBlockBits, z >> kBlockBits);
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int x = next(at.x, dx);
+          const Block* const owner = block.near[static_cast<std::size_t>(blocks + (x >> kBlockBits) + 1)];
+          numbers[slot++] = owner == nullptr ? kNone : owner->number[static_cast<std::size_t>(row | (x & 7))];
+        }
+      }
   }
 
   /// The numbers at the corners of a cube (bit 0: x, 1: y, 2: z) that lies above `at` (step 1) or below it

@@ -28,9 +28,6 @@ constexpr double kFairShare = 0.2;
 constexpr double kOutlierSigmas = 4.0;
 constexpr double kLeastDeviation = 0.1;
 
-// Position of a covariance entry (i, j) in xx xy xz yy yz zz.
-constexpr std::array<std::array<std::size_t, 3>, 3> kEntry{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-
 struct Axes {
   explicit Axes(int axis)
       : h(static_cast<std::size_t>(axis)),
@@ -39,43 +36,28 @@ struct Axes {
   std::size_t h, u, v;
 };
 
-using Column = ColumnSums;
+using Column = WindowColumn;
 using Window = PatchWindow;
 
-struct Place {
-  double u, v, h;
-};
-
-Place place_of(const NearCell& cell, const Axes& ax) {
-  return {cell.statistics->mean[ax.u] + cell.offset[ax.u] - 0.5,
-          cell.statistics->mean[ax.v] + cell.offset[ax.v] - 0.5,
-          cell.statistics->mean[ax.h] + cell.offset[ax.h]};
+constexpr double u_offset(std::size_t column) {
+  return static_cast<double>(column % 3) - 1;
+}
+constexpr double v_offset(std::size_t column) {
+  return static_cast<double>(column / 3) - 1;
 }
 
-void add(Column& column, const NearCell& cell, const Axes& ax) {
-  const CellStatistics& s = *cell.statistics;
-  const auto& c = s.covariance;
-  const Place p = place_of(cell, ax);
-  column.w += s.weight;
-  column.points += s.points;
-  column.lines = std::max(column.lines, s.lines);
-  column.u += s.weight * p.u;
-  column.v += s.weight * p.v;
-  column.h += s.weight * p.h;
-  column.uu += s.weight * (c[kEntry[ax.u][ax.u]] + p.u * p.u);
-  column.uv += s.weight * (c[kEntry[ax.u][ax.v]] + p.u * p.v);
-  column.vv += s.weight * (c[kEntry[ax.v][ax.v]] + p.v * p.v);
-  column.uh += s.weight * (c[kEntry[ax.u][ax.h]] + p.u * p.h);
-  column.vh += s.weight * (c[kEntry[ax.v][ax.h]] + p.v * p.h);
-  column.hh += s.weight * (c[kEntry[ax.h][ax.h]] + p.h * p.h);
-}
-
-void finish(Column& column) {
-  if (column.empty()) return;
-  const double inverse = 1.0 / column.w;
-  for (double* sum : {&column.u, &column.v, &column.h, &column.uu, &column.uv, &column.vv, &column.uh,
-                      &column.vh, &column.hh})
-    *sum *= inverse;
+Column moved(const ColumnStatistics& s, std::size_t column, int base) {
+  return {s.weight,
+          s.points,
+          s.u + u_offset(column) - 0.5,
+          s.v + v_offset(column) - 0.5,
+          s.h + base,
+          s.uu,
+          s.uv,
+          s.vv,
+          s.uh,
+          s.vh,
+          s.hh};
 }
 
 using Coefficients = std::array<double, 6>;  // a b c d e f
@@ -108,37 +90,43 @@ double axis_share(double uu, double uv, double vv, double uh, double vh, double 
 }
 
 void summarise(Window& window) {
-  Column all;
+  double w = 0, u = 0, v = 0, h = 0, uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;
   for (const Column& c : window.columns) {
     window.points += c.points;
-    window.lines = std::max(window.lines, c.lines);
     window.best_column = std::max(window.best_column, c.points);
-    all.w += c.w;
-    all.u += c.w * c.u;
-    all.v += c.w * c.v;
-    all.h += c.w * c.h;
-    all.uu += c.w * c.uu;
-    all.uv += c.w * c.uv;
-    all.vv += c.w * c.vv;
-    all.uh += c.w * c.uh;
-    all.vh += c.w * c.vh;
-    all.hh += c.w * c.hh;
+    const double wu = c.w * c.u, wv = c.w * c.v, wh = c.w * c.h;
+    w += c.w;
+    u += wu;
+    v += wv;
+    h += wh;
+    uu += c.w * c.uu + wu * c.u;
+    uv += c.w * c.uv + wu * c.v;
+    vv += c.w * c.vv + wv * c.v;
+    uh += c.w * c.uh + wu * c.h;
+    vh += c.w * c.vh + wv * c.h;
+    hh += c.w * c.hh + wh * c.h;
   }
-  finish(all);
-  window.weight = all.w;
-  const double uu = all.uu - all.u * all.u, uv = all.uv - all.u * all.v, vv = all.vv - all.v * all.v;
-  window.spread = narrowest_variance(uu, uv, vv);
+  window.weight = w;
+  const double inverse = w == 0 ? 0 : 1 / w;
+  u *= inverse;
+  v *= inverse;
+  h *= inverse;
+  const double c_uu = uu * inverse - u * u, c_uv = uv * inverse - u * v, c_vv = vv * inverse - v * v;
+  window.spread = narrowest_variance(c_uu, c_uv, c_vv);
   window.axis_share =
-      axis_share(uu, uv, vv, all.uh - all.u * all.h, all.vh - all.v * all.h, all.hh - all.h * all.h);
+      axis_share(c_uu, c_uv, c_vv, uh * inverse - u * h, vh * inverse - v * h, hh * inverse - h * h);
 }
 
-Window window_of(const PatchInput& input, const Axes& ax, const Excluded& excluded) {
+Window window_of(const PatchInput& input, const Excluded& excluded) {
   Window window;
   for (std::size_t i = 0; i < 9; ++i) {
-    for (int k = 0; k < input.columns[i].count; ++k)
-      if ((excluded[i] >> k & 1) == 0)
-        add(window.columns[i], input.columns[i].cells[static_cast<std::size_t>(k)], ax);
-    finish(window.columns[i]);
+    const PatchColumn& column = input.columns[i];
+    if (column.stack == nullptr) continue;
+    const ColumnStatistics rest =
+        excluded[i] == 0 ? *column.statistics : merged(*column.stack, input.axis, excluded[i]);
+    if (rest.weight == 0) continue;
+    window.columns[i] = moved(rest, i, column.base);
+    window.lines = std::max(window.lines, rest.most_lines);
   }
   summarise(window);
   return window;
@@ -163,7 +151,7 @@ Solution solve(const Window& window, const CurvaturePrior& prior, const PatchOpt
   SmallSystem<N> system;
   for (const Column& c : window.columns) {
     if (c.empty()) continue;
-    const double row[6] = {1, c.u, c.v, c.uu, c.uv, c.vv};
+    const double row[6] = {1, c.u, c.v, c.uu + c.u * c.u, c.uv + c.u * c.v, c.vv + c.v * c.v};
     system.add(row, c.h, c.w);
   }
   const double unit_variance = options.point_variance * kTypicalWeight;
@@ -191,10 +179,8 @@ double point_variance(const Window& window, const Coefficients& k, double fallba
   for (const Column& c : window.columns) {
     if (c.points < 8) continue;
     const Normal2 s = slopes_at(k, c.u, c.v);
-    const double uu = c.uu - c.u * c.u, vv = c.vv - c.v * c.v, uv = c.uv - c.u * c.v;
-    const double uh = c.uh - c.u * c.h, vh = c.vh - c.v * c.h, hh = c.hh - c.h * c.h;
-    found[count++] = std::max(
-        0.0, hh - 2 * s.u * uh - 2 * s.v * vh + s.u * s.u * uu + 2 * s.u * s.v * uv + s.v * s.v * vv);
+    found[count++] = std::max(0.0, c.hh - 2 * s.u * c.uh - 2 * s.v * c.vh + s.u * s.u * c.uu +
+                                       2 * s.u * s.v * c.uv + s.v * s.v * c.vv);
   }
   if (count == 0) return fallback;
   std::nth_element(found.begin(), found.begin() + count / 2, found.begin() + count);
@@ -206,50 +192,40 @@ bool find_wild_cells(const PatchInput& input, const Axes& ax, const Coefficients
                      Excluded& excluded) {
   const double limit = kOutlierSigmas * std::max(std::sqrt(variance), kLeastDeviation);
   bool any = false;
-  for (std::size_t i = 0; i < 9; ++i)
-    for (int c = 0; c < input.columns[i].count; ++c) {
-      const Place p = place_of(input.columns[i].cells[static_cast<std::size_t>(c)], ax);
-      const bool wild = std::abs(p.h - height_at(k, p.u, p.v)) > limit;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const PatchColumn& column = input.columns[i];
+    const int count = column.stack == nullptr ? 0 : column.stack->count;
+    for (int c = 0; c < count; ++c) {
+      const auto& mean = column.stack->cells[static_cast<std::size_t>(c)]->mean;
+      const double u = mean[ax.u] + u_offset(i) - 0.5, v = mean[ax.v] + v_offset(i) - 0.5;
+      const bool wild = std::abs(mean[ax.h] + (column.base + c) - height_at(k, u, v)) > limit;
       const auto bit = static_cast<std::uint8_t>(1 << c);
       if (wild == ((excluded[i] & bit) != 0)) continue;
       excluded[i] = static_cast<std::uint8_t>(excluded[i] ^ bit);
       any = true;
     }
+  }
   return any;
 }
 
 // Of the lines' parts in a column: weighted sum of the squares of their distances from their mean, across the
 // surface.
-double parts_apart(const PatchColumn& column, const Axes& ax, const Normal2& slope, double& freedom) {
-  double count = 0, weight = 0, sum = 0, squares = 0;
-  for (int c = 0; c < column.count; ++c) {
-    const NearCell& cell = column.cells[static_cast<std::size_t>(c)];
-    const CellStatistics& s = *cell.statistics;
-    const auto& m = s.parts_squares;
-    // Height above the sloping plane through the middle cube's corner, of a mean p: p_h - slope p_u - slope
-    // p_v + offset.
-    const double offset = cell.offset[ax.h] - slope.u * cell.offset[ax.u] - slope.v * cell.offset[ax.v];
-    const double first = s.parts_sum[ax.h] - slope.u * s.parts_sum[ax.u] - slope.v * s.parts_sum[ax.v];
-    const double second = m[kEntry[ax.h][ax.h]] - 2 * slope.u * m[kEntry[ax.u][ax.h]] -
-                          2 * slope.v * m[kEntry[ax.v][ax.h]] + slope.u * slope.u * m[kEntry[ax.u][ax.u]] +
-                          2 * slope.u * slope.v * m[kEntry[ax.u][ax.v]] +
-                          slope.v * slope.v * m[kEntry[ax.v][ax.v]];
-    count += s.parts;
-    weight += s.parts_weight;
-    sum += first + offset * s.parts_weight;
-    squares += second + 2 * offset * first + offset * offset * s.parts_weight;
-  }
-  if (count < 2) return 0;
-  freedom += count - 1;
-  return squares - sum * sum / weight;
+double parts_apart(const ColumnStatistics& s, const Normal2& slope, double& freedom) {
+  if (s.parts < 2) return 0;
+  const double sum = s.parts_h - slope.u * s.parts_u - slope.v * s.parts_v;
+  const double squares = s.parts_hh - 2 * slope.u * s.parts_uh - 2 * slope.v * s.parts_vh +
+                         slope.u * slope.u * s.parts_uu + 2 * slope.u * slope.v * s.parts_uv +
+                         slope.v * slope.v * s.parts_vv;
+  freedom += s.parts - 1;
+  return squares - sum * sum / s.parts_weight;
 }
 
 // How many times more the mean of a window scatters than if all its points erred by themselves: points of one
 // line share the line's error. A line crosses up to three columns of the window.
-double line_factor(const PatchInput& input, const Axes& ax, const Normal2& slope, double variance,
-                   double mean_weight) {
+double line_factor(const PatchInput& input, const Normal2& slope, double variance, double mean_weight) {
   double apart = 0, freedom = 0;
-  for (const PatchColumn& column : input.columns) apart += parts_apart(column, ax, slope, freedom);
+  for (const PatchColumn& column : input.columns)
+    if (column.stack != nullptr) apart += parts_apart(*column.statistics, slope, freedom);
   if (freedom == 0 || !(variance > 0)) return 1;
   return 1 + 3 * std::max(0.0, apart / (freedom * variance * mean_weight) - 1);
 }
@@ -257,12 +233,12 @@ double line_factor(const PatchInput& input, const Axes& ax, const Normal2& slope
 // Mean cosine between the normal and the directions to the camera.
 double facing(const PatchInput& input, const std::array<double, 3>& normal) {
   double sum = 0, lines = 0;
-  for (const PatchColumn& column : input.columns)
-    for (int c = 0; c < column.count; ++c) {
-      const CellStatistics& s = *column.cells[static_cast<std::size_t>(c)].statistics;
-      sum += s.towards[0] * normal[0] + s.towards[1] * normal[1] + s.towards[2] * normal[2];
-      lines += s.lines;
-    }
+  for (const PatchColumn& column : input.columns) {
+    if (column.stack == nullptr) continue;
+    const ColumnStatistics& s = *column.statistics;
+    sum += s.towards[0] * normal[0] + s.towards[1] * normal[1] + s.towards[2] * normal[2];
+    lines += s.lines;
+  }
   return sum / lines;
 }
 
@@ -304,7 +280,7 @@ std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, 
   patch.centre[ax.v] = middle.v + 0.5;
   patch.centre[ax.h] = middle.h;
   const double mean_weight = window.weight / window.points;
-  const double factor = line_factor(input, ax, slope, variance, mean_weight);
+  const double factor = line_factor(input, slope, variance, mean_weight);
   patch.deviation = along * std::sqrt(variance * mean_weight * found.variance_factor * factor);
   return patch;
 }
@@ -312,7 +288,7 @@ std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, 
 }  // namespace
 
 PatchFit::PatchFit(const PatchInput& input, const PatchOptions& options)
-    : input_(input), options_(options), window_(window_of(input, Axes(input.axis), {})) {}
+    : input_(input), options_(options), window_(window_of(input, {})) {}
 
 bool PatchFit::possible() const {
   return enough(window_, options_);
@@ -330,7 +306,7 @@ std::optional<SurfacePatch> PatchFit::patch(const CurvaturePrior& prior) {
   Solution found = solve(window_, prior, options_);
   double variance = point_variance(window_, found.k, options_.point_variance);
   for (int round = 0; round < 2 && find_wild_cells(input_, ax, found.k, variance, excluded); ++round) {
-    window_ = window_of(input_, ax, excluded);
+    window_ = window_of(input_, excluded);
     if (!possible()) return std::nullopt;
     found = solve(window_, prior, options_);
     variance = point_variance(window_, found.k, options_.point_variance);

@@ -13,24 +13,16 @@
 #include <cstdint>
 #include <optional>
 
-#include "viewer/surface/cell_moments.hpp"
+#include "viewer/surface/column_runs.hpp"
 #include "viewer/surface/mesher_options.hpp"
 
 namespace linescope {
 
-/// A cube of the neighbourhood: its statistics, and where its lowest corner lies from the middle cube's
-/// (intervals).
-struct NearCell {
-  const CellStatistics* statistics;
-  std::array<int, 3> offset;
-};
-
-/// All cubes that may take part: columns 3x3 around the middle one, up to kPatchReach cubes up and down.
-inline constexpr int kPatchReach = 3;
+/// A column of the neighbourhood.
 struct PatchColumn {
-  std::array<NearCell, 2 * kPatchReach + 1> cells;  ///< the first `count` are set
-  int count = 0;
-  void add(const NearCell& cell) { cells[static_cast<std::size_t>(count++)] = cell; }
+  const CubeStack* stack = nullptr;              ///< null: no points there
+  const ColumnStatistics* statistics = nullptr;  ///< of all of it
+  int base = 0;                                  ///< height of the lowest cube above the middle one
 };
 
 struct PatchInput {
@@ -64,16 +56,17 @@ struct SurfacePatch {
   std::array<double, 3> curvature{};  ///< d, e, f
 };
 
-/// Sums over the cubes of one column, about the middle of the neighbourhood's middle column.
-struct ColumnSums {
-  double w = 0, points = 0, lines = 0;
-  double u = 0, v = 0, h = 0, uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  ///< in the end: means
+/// A column from the middle of the neighbourhood's middle column.
+struct WindowColumn {
+  double w = 0, points = 0;
+  double u = 0, v = 0, h = 0;                             ///< means
+  double uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  ///< covariance of the points
   bool empty() const { return w == 0; }
 };
 
 /// All nine columns, and what they say together.
 struct PatchWindow {
-  std::array<ColumnSums, 9> columns{};
+  std::array<WindowColumn, 9> columns{};
   double weight = 0, points = 0, lines = 0, best_column = 0;
   double spread = 0;      ///< variance across the narrowest direction of u, v
   double axis_share = 0;  ///< square of the normal's component along h, from the covariance of all points
