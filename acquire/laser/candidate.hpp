@@ -19,9 +19,7 @@ struct Candidate {
   float sigma = 0;       ///< px, of the Gaussian of the same width at half height
   float peak = 0;        ///< grey levels above the background, laser's channel
   float saturated = 0;   ///< px
-  LightMix mix{};        ///< the light it was found in
-  LightMix calm_mix{};   ///< LightWindow::calm_mix
-  float structure = 0;   ///< LightWindow::structure
+  int look = -1;         ///< CandidateList::looks; -1 for a weighted mean
   bool clipped = false;  ///< the laser's channel is flat on top
   bool good = true;
   NoPoint fault = NoPoint::no_light;  ///< why not, unless good
@@ -49,13 +47,22 @@ struct Candidate {
   }
 };
 
+/// The light in which candidates were found; shared by those that follow one that was looked at.
+struct Look {
+  LightMix mix{};
+  LightMix calm_mix{};  ///< LightWindow::calm_mix
+  float structure = 0;  ///< LightWindow::structure
+};
+
 /// Candidates of all profiles, profile by profile: those of profile p are [first[p], first[p + 1]).
 struct CandidateList {
   std::vector<Candidate> all;
   std::vector<int> first;
+  std::vector<Look> looks;
 
   void begin(int profiles) {
     all.clear();
+    looks.clear();
     first.clear();
     first.reserve(static_cast<std::size_t>(profiles) + 1);
   }

@@ -52,6 +52,7 @@ void CandidateFinder::find(const PictureView& picture, const RunFinder& runs, Ca
   const bool mean = options_.centre == CentreMethod::weighted_mean;
   length_ = profile_of(picture, options_.axis, source.lead, 0).length;
   out.begin(profiles);
+  block_.begin(picture, options_.axis, source.lead);
   for (index_ = 0; index_ < profiles;) {
     if (at_once_ && (mean ? find_means_at_once(source) : follow_at_once(source))) continue;
     find_one(source);
@@ -74,15 +75,13 @@ void CandidateFinder::find_one(const Source& source) {
 }
 
 bool CandidateFinder::find_means_at_once(const Source& source) {
-  RunBlock block;
-  block.collect(source.picture, options_.axis, source.lead, source.runs, index_, kBlockLanes);
-  if (block.length[0] == 0) return false;
-  MeanSumsBlock sums;
-  mean_sums(block, excess_, levels_, sums);
-  for (std::size_t lane = 0; lane < kBlockLanes && block.length[lane] > 0; ++lane, ++index_) {
-    const Run run = block.run[lane];
+  block_.collect(source.runs, index_, kBlockLanes);
+  if (block_.length[0] == 0) return false;
+  mean_sums(block_, excess_, levels_, means_);
+  for (std::size_t lane = 0; lane < kBlockLanes && block_.length[lane] > 0; ++lane, ++index_) {
+    const Run run = block_.run[lane];
     begin_profile(source.out);
-    fill_mean_candidate(sums.of(lane), length_, index_, run, options_, source.out.all.emplace_back());
+    fill_mean_candidate(means_.of(lane), length_, index_, run, options_, source.out.all.emplace_back());
     if (index_ % kNoiseEvery == 0)
       source.noise.add(profile_of(source.picture, options_.axis, source.lead, index_), run.last + 3,
                        run.last + 10);
@@ -112,10 +111,9 @@ void CandidateFinder::find_shapes(const Source& source, const Profile& profile, 
   }
 }
 
-bool CandidateFinder::continues(const Neighbour& n, Run run) const {
-  return n.followers < kFollowers && std::abs(run.first - n.run.first) <= kSame &&
-         std::abs(run.last - n.run.last) <= kSame && run.length() <= kLongest &&
-         std::min<int>(run.first, length_ - 1 - run.last) >= run.length();
+bool CandidateFinder::continues(Run before, Run run) const {
+  return std::abs(run.first - before.first) <= kSame && std::abs(run.last - before.last) <= kSame &&
+         run.length() <= kLongest && std::min<int>(run.first, length_ - 1 - run.last) >= run.length();
 }
 
 bool CandidateFinder::like_the_line(const LightSums& light) const {
@@ -135,7 +133,7 @@ void CandidateFinder::add_follower(const Neighbour& n, Run run, const LightSums&
 
 bool CandidateFinder::follow(const Profile& profile, Run run, CandidateList& out) {
   const Neighbour& n = neighbour();
-  if (n.profile != index_ - 1 || !continues(n, run)) return false;
+  if (n.profile != index_ - 1 || n.followers >= kFollowers || !continues(n.run, run)) return false;
   const LightSums light = light_sums(profile, run, excess_, n.background);
   if (!like_the_line(light)) return false;
   add_follower(n, run, light, out);
@@ -144,23 +142,25 @@ bool CandidateFinder::follow(const Profile& profile, Run run, CandidateList& out
 }
 
 bool CandidateFinder::follow_at_once(const Source& source) {
-  Neighbour n = neighbour();
-  if (n.profile != index_ - 1 || n.profile < 0 || !continues(n, source.runs.only_run(index_))) return false;
-  RunBlock block;
-  block.collect(source.picture, options_.axis, source.lead, source.runs, index_, kFollowers - n.followers);
-  LightSumsBlock sums;
-  light_sums(block, excess_, n.background, sums);
-  const int from = index_;
-  for (std::size_t lane = 0; lane < kBlockLanes && block.length[lane] > 0; ++lane, ++index_) {
-    const Run run = block.run[lane];
-    const LightSums light = sums.of(lane);
-    if (!continues(n, run) || !like_the_line(light)) break;
+  const Neighbour& n = neighbour();
+  const int from = index_, most = kFollowers - n.followers;
+  if (n.profile != from - 1 || most <= 0 || !continues(n.run, source.runs.only_run(from))) return false;
+  block_.collect(source.runs, from, most);
+  light_sums(block_, excess_, n.background, lights_);
+  Run before = n.run;
+  for (std::size_t lane = 0; lane < kBlockLanes && block_.length[lane] > 0; ++lane, ++index_) {
+    const Run run = block_.run[lane];
+    const LightSums light = lights_.of(lane);
+    if (!continues(before, run) || !like_the_line(light)) break;
     begin_profile(source.out);
     add_follower(n, run, light, source.out);
-    n = {index_, run, n.candidate, n.background, n.followers + 1};
+    before = run;
   }
-  if (index_ > from) neighbours_[static_cast<std::size_t>(n.profile & 1)] = n;
-  return index_ > from;
+  const int followers = index_ - from;
+  if (followers == 0) return false;
+  neighbours_[static_cast<std::size_t>(~index_ & 1)] = {index_ - 1, before, n.candidate, n.background,
+                                                        n.followers + followers};
+  return true;
 }
 
 void CandidateFinder::close_look(Run run, CandidateList& out) {
@@ -177,23 +177,22 @@ void CandidateFinder::close_look(Run run, CandidateList& out) {
   };
   const std::optional<Hump> before = rest(from, main.first - options_.merge_gap);
   const std::optional<Hump> after = rest(main.last + 1 + options_.merge_gap, to);
-  const int first = static_cast<int>(out.all.size());
-  if (before) out.all.push_back(candidate_from(*before));
-  out.all.push_back(candidate_from(main));
-  if (after) out.all.push_back(candidate_from(*after));
+  const int first = static_cast<int>(out.all.size()), look = static_cast<int>(out.looks.size());
+  out.looks.push_back({window_.mix(), window_.calm_mix(), window_.structure()});
+  if (before) out.all.push_back(candidate_from(*before, look));
+  out.all.push_back(candidate_from(main, look));
+  if (after) out.all.push_back(candidate_from(*after, look));
   const Candidate& c = out.all.back();
-  const bool plain = !before && !after && c.good && !c.clipped && c.mix == LightMix{};
+  const bool plain = !before && !after && c.good && !c.clipped && window_.mix() == LightMix{};
   if (plain && next().profile < 0) next() = {index_, run, first, window_.background(), 0};
 }
 
-Candidate CandidateFinder::candidate_from(const Hump& h) const {
+Candidate CandidateFinder::candidate_from(const Hump& h, int look) const {
   Candidate c;
   c.profile = index_;
   c.centre = static_cast<float>(window_.begin()) + h.centre;
   c.sigma = h.width / kFullWidthPerSigma;
-  c.mix = window_.mix();
-  c.calm_mix = window_.calm_mix();
-  c.structure = window_.structure();
+  c.look = look;
   c.clipped = window_.clipped();
   int peak = 0, saturated = 0;
   for (int i = h.first; i <= h.last; ++i) {

@@ -54,7 +54,7 @@ class CandidateFinder {
   void close_look(Run run, CandidateList& out);
   bool follow(const Profile& profile, Run run, CandidateList& out);
   void begin_profile(CandidateList& out) const { out.first.push_back(static_cast<int>(out.all.size())); }
-  Candidate candidate_from(const Hump& hump) const;
+  Candidate candidate_from(const Hump& hump, int look) const;
   bool has_colour(const Hump& hump) const;
   bool rises_in_colour(const Hump& hump) const;
   int excess(int i) const { return excess_.of(window_.lead(i), window_.value(1, i), window_.value(2, i)); }
@@ -69,7 +69,7 @@ class CandidateFinder {
   };
   Neighbour& next() { return neighbours_[static_cast<std::size_t>(index_ & 1)]; }
   const Neighbour& neighbour() const { return neighbours_[static_cast<std::size_t>(~index_ & 1)]; }
-  bool continues(const Neighbour& n, Run run) const;
+  bool continues(Run before, Run run) const;
   bool like_the_line(const LightSums& light) const;
   void add_follower(const Neighbour& n, Run run, const LightSums& light, CandidateList& out) const;
 
@@ -80,6 +80,9 @@ class CandidateFinder {
   int length_ = 0;  ///< of the profiles
   int index_ = 0;
   LightWindow window_;
+  RunBlock block_;  ///< of the profiles that are taken at once, and their sums
+  MeanSumsBlock means_;
+  LightSumsBlock lights_;
   std::array<Neighbour, 2> neighbours_;  ///< of profiles with even and with odd index
 };
 

@@ -62,8 +62,11 @@ void GaussCentre::begin(const PictureView& picture, ProfileAxis axis, int lead, 
   noise_ = noise;
   const Profile p = profile_of(picture, axis, lead, 0);
   step_ = p.step;
-  length_ = p.length;
   pitch_ = axis == ProfileAxis::column ? picture.channels : picture.stride;
+  // Of the last three even grey pixels may lie less than four bytes before the picture's end. Where bytes
+  // cannot be counted in 32 bits, no window is plain.
+  safe_profiles_ = profile_count(picture, axis) - 3;
+  plain_end_ = picture.stride <= INT32_MAX / picture.height ? p.length : 0;
   fits_.clear();
 }
 
@@ -92,9 +95,8 @@ const std::vector<GaussFit>& GaussCentre::fits() {
 /// last pixel lie in the picture.
 bool GaussCentre::plain(const Waiting& w) const {
   const int end = w.frame.first + 2 * w.frame.half + 1;
-  const bool last = w.profile + 1 >= profile_count(picture_, axis_);
-  return w.frame.bin == 1 && w.mix == LightMix{} && w.frame.first >= 0 && end <= length_ - (last ? 4 : 0) &&
-         pitch_ <= INT32_MAX / 16384 && step_ <= INT32_MAX / 16384;
+  return w.frame.bin == 1 && w.mix[0] == 0 && w.mix[1] == 0 && w.frame.first >= 0 &&
+         end <= plain_end_ - (w.profile >= safe_profiles_ ? 4 : 0);
 }
 
 /// Averages of `bin` pixels each; behind the ends of the profile the last pixel goes on. The first channel

@@ -66,7 +66,8 @@ class GaussCentre {
   int lead_ = 0;
   float noise_ = 0;
   std::ptrdiff_t step_ = 0, pitch_ = 0;  ///< bytes from pixel to pixel, from profile to profile
-  int length_ = 0;                       ///< of a profile
+  int safe_profiles_ = 0;                ///< whose pixels all have four bytes in the picture
+  int plain_end_ = 0;                    ///< pixel where plain windows end at the latest
   GaussBatch batch_;
   std::vector<GaussFit> fits_;
 };

@@ -65,8 +65,11 @@ void LightWindow::read(const Profile& profile, Run run) {
 void LightWindow::gather(int channel, Bytes& out) const {
   const std::uint8_t* p = profile_.at[static_cast<std::size_t>(channel)] + begin_ * profile_.step;
   std::uint8_t* o = out.data();
-  for (int i = 0; i < size_; ++i, p += profile_.step) o[i] = *p;
-  std::fill(o + size_, o + rounded_up(size_) + kVector, o[size_ - 1]);
+  // Copies: writing bytes may change anything, as far as the compiler knows.
+  const int n = size_;
+  const std::ptrdiff_t step = profile_.step;
+  for (int i = 0; i < n; ++i, p += step) o[i] = *p;
+  std::fill(o + n, o + rounded_up(n) + kVector, o[n - 1]);
 }
 
 /// Of the channels in which the laser does not shine the one that it raises least, against the colour of the

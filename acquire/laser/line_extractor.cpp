@@ -89,8 +89,9 @@ void LineExtractor::Work::measure(const PictureView& picture) {
   gauss.begin(picture, options.axis, leading_channel(options.colour), line.noise);
   for (const Choice& chosen : choice.chosen()) {
     const Candidate& c = *chosen.first;
-    const bool calm = c.structure > kMoreThanNoise * line.noise;
-    gauss.add(c.profile, c.centre, chosen.sigma, calm ? c.calm_mix : c.mix);
+    const Look& look = candidates.looks[static_cast<std::size_t>(c.look)];
+    const bool calm = look.structure > kMoreThanNoise * line.noise;
+    gauss.add(c.profile, c.centre, chosen.sigma, calm ? look.calm_mix : look.mix);
   }
   const GaussFit* fit = gauss.fits().data();
   for (const Choice& c : choice.chosen()) {

@@ -1,29 +1,41 @@
 #include "acquire/laser/line_mask.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "acquire/laser/line_mask_detail.hpp"
 
 namespace linescope {
 namespace {
 
-/// Without branches: a dark channel counts as 255 among the lit ones, a lit one as 0 among the dark ones.
-int excess(const std::uint8_t* bgr, unsigned on) {
-  int shines = 255, dark = 0;
-  for (unsigned c = 0; c < 3; ++c) {
-    const int unlit = (on >> c & 1U) != 0 ? 0 : 255;
-    shines = std::min(shines, bgr[c] | unlit);
-    dark = std::max(dark, bgr[c] & unlit);
-  }
-  return shines - dark;
-}
+/// The tests of one group, without branches.
+struct Tests {
+  std::array<int, 3> unlit{};  ///< 255 for a channel in which the laser does not shine, else 0
+  std::ptrdiff_t before = 0, after = 0;
+  int lead = 0, colour_threshold = 256, ridge_threshold = 256;
 
-/// `ridge_threshold`: 256 where no side is asked.
-bool marked(const std::uint8_t* pixel, int lead, const MaskRule& rule, const mask_detail::Sides& sides,
-            int ridge_threshold) {
-  const int around = std::max<int>(pixel[lead + sides.before], pixel[lead + sides.after]);
-  const bool ridge = pixel[lead] - around >= ridge_threshold;
-  return ridge | (excess(pixel, rule.on) >= rule.colour_threshold);
+  /// A dark channel counts as 255 among the lit ones, a lit one as 0 among the dark ones.
+  int excess(const std::uint8_t* bgr) const {
+    const auto [d0, d1, d2] = unlit;
+    const int b = bgr[0], g = bgr[1], r = bgr[2];
+    return std::min(b | d0, std::min(g | d1, r | d2)) - std::max(b & d0, std::max(g & d1, r & d2));
+  }
+  bool pass(const std::uint8_t* pixel) const {
+    const int around = std::max<int>(pixel[lead + before], pixel[lead + after]);
+    const bool ridge = pixel[lead] - around >= ridge_threshold;
+    return ridge | (excess(pixel) >= colour_threshold);
+  }
+};
+
+Tests tests_of(const MaskRule& rule, const mask_detail::Sides& sides) {
+  Tests t;
+  for (std::size_t c = 0; c < 3; ++c) t.unlit[c] = (rule.on >> c & 1U) != 0 ? 0 : 255;
+  t.before = sides.before;
+  t.after = sides.after;
+  t.lead = rule.lead;
+  t.colour_threshold = rule.colour_threshold;
+  if (sides.any()) t.ridge_threshold = rule.ridge_threshold;
+  return t;
 }
 
 }  // namespace
@@ -48,7 +60,6 @@ Sides sides_of_group(const PictureView& p, const MaskRule& rule, int y, int x) {
 std::uint32_t mark_group(const PictureView& p, const MaskRule& rule, int y, int x) {
   const std::uint8_t* pixel = p.data + p.stride * y + std::ptrdiff_t{p.channels} * x;
   const Sides sides = sides_of_group(p, rule, y, x);
-  const int lead = p.channels == 3 ? rule.lead : 0;
   const int n = std::min(kMaskGroup, p.width - x);
   std::uint32_t bits = 0;
   if (p.channels == 1) {
@@ -60,9 +71,8 @@ std::uint32_t mark_group(const PictureView& p, const MaskRule& rule, int y, int 
     }
     return bits;
   }
-  const int ridge_threshold = sides.any() ? rule.ridge_threshold : 256;
-  for (int i = 0; i < n; ++i)
-    bits |= std::uint32_t{marked(pixel + 3 * i, lead, rule, sides, ridge_threshold)} << i;
+  const Tests tests = tests_of(rule, sides);
+  for (int i = 0; i < n; ++i) bits |= std::uint32_t{tests.pass(pixel + 3 * i)} << i;
   return bits;
 }
 

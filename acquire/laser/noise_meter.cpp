@@ -13,20 +13,25 @@ void NoiseMeter::clear() {
 void NoiseMeter::add(const Profile& profile, int first, int last) {
   first = std::max(first, 0);
   last = std::min(last, profile.length - 1);
-  for (int i = first; i + 2 <= last; ++i) {
+  for (int i = first; i + 2 <= last; ++i)
     ++counts_[static_cast<std::size_t>(std::abs(profile.light(i + 2) - profile.light(i)))];
-    ++total_;
-  }
+  total_ += static_cast<std::uint32_t>(std::max(0, last - first - 1));
 }
 
 void NoiseMeter::add_sparsely(const PictureView& picture, int lead) {
-  constexpr int kRows = 12, kStretch = 64;
+  constexpr int kRows = 12, kStretch = 64, kLinePixels = 20;
   const int room = std::max(1, picture.width - kStretch);
+  const auto row_of = [&](int i) {
+    return profile_of(picture, ProfileAxis::row, lead, (2 * i + 1) * picture.height / (2 * kRows));
+  };
+  const auto first_of = [&](int i) { return i * 7919 % room; };  // scattered, the same for every picture
+  // Memory is asked for all of them before the first is needed.
   for (int i = 0; i < kRows; ++i) {
-    const int y = (2 * i + 1) * picture.height / (2 * kRows);
-    const int x = i * 7919 % room;  // scattered, but the same for every picture
-    add(profile_of(picture, ProfileAxis::row, lead, y), x, x + kStretch - 1);
+    const Profile row = row_of(i);
+    for (int x = 0; x < kStretch && first_of(i) + x < row.length; x += kLinePixels)
+      __builtin_prefetch(row.at[0] + (first_of(i) + x) * row.step);
   }
+  for (int i = 0; i < kRows; ++i) add(row_of(i), first_of(i), first_of(i) + kStretch - 1);
 }
 
 float NoiseMeter::sigma() const {

@@ -1,34 +1,34 @@
 #include "acquire/laser/run_block.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace linescope {
 
-void RunBlock::collect(const PictureView& p, ProfileAxis axis, int lead, const RunFinder& runs, int from,
-                       int count) {
-  const bool column = axis == ProfileAxis::column, grey = p.channels == 1;
-  const std::ptrdiff_t pitch = column ? p.channels : p.stride, along = column ? p.stride : p.channels;
-  // Not before the last pixel can four bytes reach behind the picture.
-  const std::ptrdiff_t end = p.stride * (p.height - 1) + std::ptrdiff_t{p.channels} * p.width - 4;
-  const bool addressable = std::abs(p.stride) <= INT32_MAX / p.height;
-  first = from;
+void RunBlock::begin(const PictureView& p, ProfileAxis axis, int lead) {
+  const bool column = axis == ProfileAxis::column, addressable = p.stride <= INT32_MAX / p.height;
   picture = p.data;
-  step = static_cast<int>(along);
-  for (int c = 0; c < 3; ++c) shift[static_cast<std::size_t>(c)] = grey ? 0 : 8 * ((lead + c) % 3);
+  profiles_ = addressable ? profile_count(p, axis) : 0;
+  pitch_ = column ? p.channels : p.stride;
+  step = static_cast<int>(column ? p.stride : p.channels);
+  for (int c = 0; c < 3; ++c) shift[static_cast<std::size_t>(c)] = p.channels == 1 ? 0 : 8 * ((lead + c) % 3);
+  // Not before the picture's last pixel can four bytes reach behind it.
+  end_ = p.stride * (p.height - 1) + std::ptrdiff_t{p.channels} * p.width - 3;
+}
+
+void RunBlock::collect(const RunFinder& runs, int from, int count) {
   longest = 0;
   length = {};
-  count = addressable ? std::min(count, profile_count(p, axis) - from) : 0;
+  count = std::min(count, profiles_ - from);
   for (int i = 0; i < count; ++i) {
     const Run only = runs.only_run(from + i);
-    if (only.length() == 0 || only.length() > kLongest) continue;
-    const std::ptrdiff_t at = pitch * (from + i) + along * only.first;
-    if (at + along * (only.length() - 1) > end) continue;
+    const int pixels = only.length();
+    const std::ptrdiff_t at = pitch_ * (from + i) + std::ptrdiff_t{step} * only.first;
+    if (pixels == 0 || pixels > kLongest || at + std::ptrdiff_t{step} * (pixels - 1) >= end_) continue;
     const auto lane = static_cast<std::size_t>(i);
     run[lane] = only;
-    begin[lane] = static_cast<std::int32_t>(at);
-    length[lane] = only.length();
-    longest = std::max(longest, length[lane]);
+    begin_at[lane] = static_cast<std::int32_t>(at);
+    length[lane] = pixels;
+    longest = std::max(longest, pixels);
   }
 }
 

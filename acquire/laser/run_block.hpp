@@ -19,18 +19,23 @@ using LaneInts = std::array<std::int32_t, kBlockLanes>;
 struct RunBlock {
   static constexpr int kLongest = 64;  ///< px; longer runs gain nothing from neighbours and are left out
 
-  int first = 0;  ///< profile of lane 0
   std::array<Run, kBlockLanes> run{};
-  LaneInts begin{};   ///< of the run's first pixel, bytes
-  LaneInts length{};  ///< px; 0: no run in this lane
-  int longest = 0;    ///< px
-  int step = 0;       ///< bytes from one pixel of a profile to the next
+  LaneInts begin_at{};  ///< of the run's first pixel, bytes
+  LaneInts length{};    ///< px; 0: no run in this lane
+  int longest = 0;      ///< px
+  int step = 0;         ///< bytes from one pixel of a profile to the next
   const std::uint8_t* picture = nullptr;
   std::array<int, 3> shift{};  ///< of the channels within the four bytes, in the order of Profile
 
+  /// Starts a picture.
+  void begin(const PictureView& picture, ProfileAxis axis, int lead);
   /// Profiles [from, from + count) that have a single run.
-  void collect(const PictureView& picture, ProfileAxis axis, int lead, const RunFinder& runs, int from,
-               int count);
+  void collect(const RunFinder& runs, int from, int count);
+
+ private:
+  int profiles_ = 0;
+  std::ptrdiff_t pitch_ = 0;  ///< bytes from one profile to the next
+  std::ptrdiff_t end_ = 0;    ///< before this byte four may be read
 };
 
 /// The weighted mean's: over the colour excess where it reaches the threshold, 0 elsewhere.

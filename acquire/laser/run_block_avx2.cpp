@@ -26,7 +26,7 @@ struct Walk {
 
   LINESCOPE_AVX2_INLINE explicit Walk(const RunBlock& b)
       : picture(reinterpret_cast<const int*>(b.picture)),
-        at(load(b.begin)),
+        at(load(b.begin_at)),
         step(_mm256_set1_epi32(b.step)),
         left(load(b.length)),
         shift0(_mm_cvtsi32_si128(b.shift[0])),

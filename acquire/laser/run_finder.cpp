@@ -41,11 +41,15 @@ RunFinder::RunFinder(bool vectors) : avx512_(vectors && knows_avx512()) {}
 void RunFinder::sample_ambient(const PictureView& picture, int y, const std::uint32_t* words) {
   const int groups = mask_words(picture.width);
   const std::uint8_t* pixel = picture.data + picture.stride * y;
+  std::array<std::uint32_t, 3> sum{};
+  std::uint32_t count = 0;
   for (int w = 0; w < groups; ++w, pixel += kMaskGroup * picture.channels) {
-    if ((words[w] & 1U) != 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += pixel[picture.channels == 3 ? c : 0];
-    ++ambient_count_;
+    const std::uint32_t free = ~words[w] & 1U;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += free * pixel[picture.channels == 3 ? c : 0];
+    count += free;
   }
+  for (std::size_t c = 0; c < 3; ++c) ambient_sum_[c] += sum[c];
+  ambient_count_ += count;
 }
 
 void RunFinder::finish_ambient() {

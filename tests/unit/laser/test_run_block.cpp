@@ -52,7 +52,8 @@ class RunBlockSums : public ::testing::TestWithParam<Case> {
     const int profiles = profile_count(view_, GetParam().axis);
     for (int from = 0; from < profiles; from += 3) {
       RunBlock block;
-      block.collect(view_, GetParam().axis, lead, runs_, from, kBlockLanes);
+      block.begin(view_, GetParam().axis, lead);
+      block.collect(runs_, from, kBlockLanes);
       for (int p = from; p < std::min(profiles, from + kBlockLanes); ++p) {
         const Stretch run = runs_.only_run(p);
         const auto lane = static_cast<std::size_t>(p - from);
