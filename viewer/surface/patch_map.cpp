@@ -61,6 +61,7 @@ void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
   for (const std::int32_t cell : affected_)
     for (int axis = 0; axis < 3; ++axis)
       if ((records_[cell].redo >> axis & 1) != 0) refit(grid, cell, axis, listener);
+  solve_taken(grid, listener);
   if (!all) let_borrowers_wait(grid);
   for (const std::int32_t cell : affected_) records_[cell].redo = 0;
   for (const std::int32_t cell : waiting_) {
@@ -68,6 +69,22 @@ void PatchMap::update(const MomentGrid& grid, PatchListener& listener) {
       if ((records_[cell].wait >> axis & 1) != 0) refit_at_border(grid, cell, axis, listener);
     records_[cell].wait = 0;
   }
+  solve_taken(grid, listener);
+}
+
+// The candidate that was looked at last is to become a patch.
+void PatchMap::take(const MomentGrid& grid, PatchListener& listener) {
+  if (++taken_ == kPatchLanes) solve_taken(grid, listener);
+}
+
+void PatchMap::solve_taken(const MomentGrid& grid, PatchListener& listener) {
+  if (taken_ == 0) return;
+  FourPatches patches;
+  for (std::size_t i = 0; i < kPatchLanes; ++i) patches[i] = candidates_[i < taken_ ? i : 0].fit.equations();
+  const FourSolutions found = solve_patches(patches, options_.fit, unit_variance(options_));
+  for (std::size_t i = 0; i < taken_; ++i)
+    hold(grid, candidates_[i].cell, candidates_[i].fit.patch(found[i]), listener);
+  taken_ = 0;
 }
 
 // What borders on a patch that was looked at borrows from it.
@@ -144,10 +161,12 @@ void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, Patc
   record.border = static_cast<std::uint8_t>(record.border & ~bit);
   if (!runs_.occupied(number) || !is_middle_of_column(grid, number, axis)) return;
   record.middle = static_cast<std::uint8_t>(record.middle | bit);
-  const PatchInput input = input_of(grid, number, axis);
-  PatchFit fit(input, options_);
+  PatchFit& fit = look_at(grid, number, axis);
   if (!fit.possible()) return;
-  if (fit.has_all_columns()) return hold(grid, number, fit.patch({{}, curvature_variance_}), listener);
+  if (fit.has_all_columns()) {
+    fit.believe({{}, curvature_variance_});
+    return take(grid, listener);
+  }
   record.border = static_cast<std::uint8_t>(record.border | bit);
   let_wait(number, bit);
 }
@@ -155,9 +174,10 @@ void PatchMap::refit(const MomentGrid& grid, std::int32_t number, int axis, Patc
 void PatchMap::refit_at_border(const MomentGrid& grid, std::int32_t number, int axis,
                                PatchListener& listener) {
   drop(grid, number, axis, listener);
-  const PatchInput input = input_of(grid, number, axis);
-  PatchFit fit(input, options_);
-  if (fit.possible()) hold(grid, number, fit.patch(lent_curvature(grid, number, axis)), listener);
+  PatchFit& fit = look_at(grid, number, axis);
+  if (!fit.possible()) return;
+  fit.believe(lent_curvature(grid, number, axis));
+  take(grid, listener);
 }
 
 // At a border the columns cannot tell slope from curvature: it is taken from the complete patches next to it.
@@ -190,14 +210,15 @@ bool PatchMap::is_middle_of_column(const MomentGrid& grid, std::int32_t number, 
 }
 
 // Of a column beside the middle cube the stretch of occupied cubes that begins at its height or one off.
-PatchColumn PatchMap::column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i) {
+PatchColumn PatchMap::column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i,
+                                ColumnRun& own) {
   for (const int height : {0, 1, -1}) {
     const std::int32_t seed = linked(grid.cell(middle), axis, i, height);
     if (seed == kNone || !runs_.occupied(seed)) continue;
     const ColumnRuns::Place place = runs_.find(grid, seed, axis);
-    if (place.run == nullptr) return clipped_column(grid, seed, height, axis, i);
+    if (place.run == nullptr) return clipped_column(grid, seed, height, axis, own);
     const int base = height - place.height, top = base + place.run->stack.count - 1;
-    if (base < -kPatchReach || top > kPatchReach) return clipped_column(grid, seed, height, axis, i);
+    if (base < -kPatchReach || top > kPatchReach) return clipped_column(grid, seed, height, axis, own);
     if (!place.run->merged) place.run->statistics = merged(place.run->stack, axis);
     place.run->merged = true;
     return {&place.run->stack, &place.run->statistics, base};
@@ -206,7 +227,8 @@ PatchColumn PatchMap::column_of(const MomentGrid& grid, std::int32_t middle, int
 }
 
 // The same of a stretch that is longer than the patch reaches.
-PatchColumn PatchMap::clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis, int i) {
+PatchColumn PatchMap::clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis,
+                                     ColumnRun& own) {
   const auto next = [&](std::int32_t from, int direction) {
     const std::int32_t other = linked(grid.cell(from), axis, kOwnColumn, direction);
     return other != kNone && runs_.occupied(other) ? other : kNone;
@@ -216,18 +238,22 @@ PatchColumn PatchMap::clipped_column(const MomentGrid& grid, std::int32_t seed, 
     at = below;
     --height;
   }
-  ColumnRun& run = clipped_[static_cast<std::size_t>(i)];
-  run.stack.count = 0;
-  for (int h = height; at != kNone && h <= kPatchReach; at = next(at, 1), ++h) run.stack.add(&runs_.cell(at));
-  run.statistics = merged(run.stack, axis);
-  return {&run.stack, &run.statistics, height};
+  own.stack.count = 0;
+  for (int h = height; at != kNone && h <= kPatchReach; at = next(at, 1), ++h) own.stack.add(&runs_.cell(at));
+  own.statistics = merged(own.stack, axis);
+  return {&own.stack, &own.statistics, height};
 }
 
-PatchInput PatchMap::input_of(const MomentGrid& grid, std::int32_t number, int axis) {
-  PatchInput input;
-  input.axis = axis;
-  for (int i = 0; i < 9; ++i) input.columns[static_cast<std::size_t>(i)] = column_of(grid, number, axis, i);
-  return input;
+PatchFit& PatchMap::look_at(const MomentGrid& grid, std::int32_t number, int axis) {
+  Candidate& next = candidates_[taken_];
+  next.cell = number;
+  next.input.axis = axis;
+  for (int i = 0; i < 9; ++i) {
+    const auto column = static_cast<std::size_t>(i);
+    next.input.columns[column] = column_of(grid, number, axis, i, next.clipped[column]);
+  }
+  next.fit.begin(next.input, options_);
+  return next.fit;
 }
 
 bool PatchMap::carries_surface(const MomentGrid& grid, std::int32_t number) const {

@@ -49,6 +49,14 @@ class PatchMap {
     std::uint8_t wait = 0;  ///< bit a: the same, after all that are not at a border
   };
 
+  /// A patch being fitted.
+  struct Candidate {
+    std::int32_t cell = 0;
+    PatchInput input;
+    std::array<ColumnRun, 9> clipped;  ///< columns that reach farther than the patch looks
+    PatchFit fit;
+  };
+
   bool collect_affected(const MomentGrid& grid);
   void collect_along(const MomentGrid& grid, std::int32_t from, int axis, int direction);
   void let_borrowers_wait(const MomentGrid& grid);
@@ -60,17 +68,20 @@ class PatchMap {
             PatchListener& listener);
   void let_wait(std::int32_t cell, unsigned axes);
   CurvaturePrior lent_curvature(const MomentGrid& grid, std::int32_t cell, int axis) const;
-  PatchInput input_of(const MomentGrid& grid, std::int32_t cell, int axis);
+  PatchFit& look_at(const MomentGrid& grid, std::int32_t cell, int axis);
+  void take(const MomentGrid& grid, PatchListener& listener);
+  void solve_taken(const MomentGrid& grid, PatchListener& listener);
   bool is_middle_of_column(const MomentGrid& grid, std::int32_t cell, int axis);
-  PatchColumn column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i);
-  PatchColumn clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis, int i);
+  PatchColumn column_of(const MomentGrid& grid, std::int32_t middle, int axis, int i, ColumnRun& own);
+  PatchColumn clipped_column(const MomentGrid& grid, std::int32_t seed, int height, int axis, ColumnRun& own);
   std::int32_t free_patch();
 
   PatchOptions options_;
   double curvature_variance_;  // expected of d and f, intervals^-2
   ColumnRuns runs_;
-  std::array<ColumnRun, 9> clipped_;  // of the patch being fitted: columns that reach farther than it looks
-  ChunkedPool<Record> records_;       // by number of cube
+  std::array<Candidate, kPatchLanes> candidates_;
+  std::size_t taken_ = 0;        // the first of candidates_, which wait to be solved together
+  ChunkedPool<Record> records_;  // by number of cube
   ChunkedPool<SurfacePatch> patches_;
   std::vector<std::int32_t> unused_patches_;
   std::vector<std::int32_t> affected_;

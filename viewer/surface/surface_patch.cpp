@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "viewer/surface/line_quantizer.hpp"
-#include "viewer/surface/small_solver.hpp"
 
 namespace linescope {
 namespace {
@@ -60,7 +60,7 @@ Column moved(const ColumnStatistics& s, std::size_t column, int base) {
           s.hh};
 }
 
-using Coefficients = std::array<double, 6>;  // a b c d e f
+using Coefficients = PatchCoefficients;
 
 double height_at(const Coefficients& k, double u, double v) {
   return k[0] + k[1] * u + k[2] * v + k[3] * u * u + k[4] * u * v + k[5] * v * v;
@@ -117,19 +117,22 @@ void summarise(Window& window) {
       axis_share(c_uu, c_uv, c_vv, uh * inverse - u * h, vh * inverse - v * h, hh * inverse - h * h);
 }
 
-Window window_of(const PatchInput& input, const Excluded& excluded) {
-  Window window;
+void look(const PatchInput& input, const Excluded& excluded, Window& window) {
+  window = {};
   for (std::size_t i = 0; i < 9; ++i) {
     const PatchColumn& column = input.columns[i];
     if (column.stack == nullptr) continue;
-    const ColumnStatistics rest =
-        excluded[i] == 0 ? *column.statistics : merged(*column.stack, input.axis, excluded[i]);
-    if (rest.weight == 0) continue;
-    window.columns[i] = moved(rest, i, column.base);
-    window.lines = std::max(window.lines, rest.most_lines);
+    if (excluded[i] != 0) {
+      const ColumnStatistics rest = merged(*column.stack, input.axis, excluded[i]);
+      if (rest.weight == 0) continue;
+      window.columns[i] = moved(rest, i, column.base);
+      window.lines = std::max(window.lines, rest.most_lines);
+    } else {
+      window.columns[i] = moved(*column.statistics, i, column.base);
+      window.lines = std::max(window.lines, column.statistics->most_lines);
+    }
   }
   summarise(window);
-  return window;
 }
 
 bool enough(const Window& window, const PatchOptions& options) {
@@ -141,49 +144,32 @@ bool enough(const Window& window, const PatchOptions& options) {
          window.axis_share >= kMinAxisShare * kMinAxisShare;
 }
 
-struct Solution {
-  Coefficients k{};
-  double variance_factor = 0;  // of the height in the middle, per unit variance of a unit weight
-};
-
-template <int N>
-Solution solve(const Window& window, const CurvaturePrior& prior, const PatchOptions& options) {
-  SmallSystem<N> system;
-  for (const Column& c : window.columns) {
-    if (c.empty()) continue;
-    const double row[6] = {1, c.u, c.v, c.uu + c.u * c.u, c.uv + c.u * c.v, c.vv + c.v * c.v};
-    system.add(row, c.h, c.w);
-  }
-  const double unit_variance = options.point_variance * kTypicalWeight;
-  const double bend = unit_variance / prior.variance;
-  const double weights[6] = {0, unit_variance, unit_variance, bend, bend / 4, bend};
-  const double means[6] = {0, 0, 0, prior.mean[0], prior.mean[1], prior.mean[2]};
-  system.add_prior(means, weights);
-  system.factorise();
-  Solution result;
-  const auto k = system.solve();
-  std::copy(k.begin(), k.end(), result.k.begin());
-  result.variance_factor = system.inverse_first();
-  return result;
-}
-
-Solution solve(const Window& window, const CurvaturePrior& prior, const PatchOptions& options) {
-  return options.fit == LocalFit::plane ? solve<3>(window, prior, options) : solve<6>(window, prior, options);
+// Neighbours into order, in as many rounds as there are values: no branch that depends on them.
+void sort_by_swaps(std::array<double, 9>& values) {
+  for (std::size_t round = 0; round < values.size(); ++round)
+    for (std::size_t i = round % 2; i + 1 < values.size(); i += 2) {
+      const double low = std::min(values[i], values[i + 1]), high = std::max(values[i], values[i + 1]);
+      values[i] = low;
+      values[i + 1] = high;
+    }
 }
 
 // Variance of a point's height about the surface, from within the columns: what is common to a column does
 // not count.
 double point_variance(const Window& window, const Coefficients& k, double fallback) {
   std::array<double, 9> found{};
+  found.fill(std::numeric_limits<double>::infinity());
   std::size_t count = 0;
-  for (const Column& c : window.columns) {
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Column& c = window.columns[i];
     if (c.points < 8) continue;
     const Normal2 s = slopes_at(k, c.u, c.v);
-    found[count++] = std::max(0.0, c.hh - 2 * s.u * c.uh - 2 * s.v * c.vh + s.u * s.u * c.uu +
-                                       2 * s.u * s.v * c.uv + s.v * s.v * c.vv);
+    found[i] = std::max(0.0, c.hh - 2 * s.u * c.uh - 2 * s.v * c.vh + s.u * s.u * c.uu +
+                                 2 * s.u * s.v * c.uv + s.v * s.v * c.vv);
+    ++count;
   }
   if (count == 0) return fallback;
-  std::nth_element(found.begin(), found.begin() + count / 2, found.begin() + count);
+  sort_by_swaps(found);
   return found[count / 2];
 }
 
@@ -256,7 +242,7 @@ double noise_shift(const Coefficients& k, const Normal2& slope, double variance)
 }
 
 std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, const Window& window,
-                                       const Solution& found, double variance) {
+                                       const PatchSolution& found, double variance) {
   SurfacePatch patch;
   patch.axis = input.axis;
   for (std::size_t corner = 0; corner < 4; ++corner)
@@ -287,11 +273,18 @@ std::optional<SurfacePatch> patch_from(const PatchInput& input, const Axes& ax, 
 
 }  // namespace
 
-PatchFit::PatchFit(const PatchInput& input, const PatchOptions& options)
-    : input_(input), options_(options), window_(window_of(input, {})) {}
+double unit_variance(const PatchOptions& options) {
+  return options.point_variance * kTypicalWeight;
+}
+
+void PatchFit::begin(const PatchInput& input, const PatchOptions& options) {
+  input_ = &input;
+  options_ = &options;
+  look(input, {}, window_);
+}
 
 bool PatchFit::possible() const {
-  return enough(window_, options_);
+  return enough(window_, *options_);
 }
 
 bool PatchFit::has_all_columns() const {
@@ -300,19 +293,24 @@ bool PatchFit::has_all_columns() const {
   });
 }
 
-std::optional<SurfacePatch> PatchFit::patch(const CurvaturePrior& prior) {
-  const Axes ax(input_.axis);
+PatchSolution PatchFit::solved_again() const {
+  FourPatches same;
+  same.fill(equations());
+  return solve_patches(same, options_->fit, unit_variance(*options_))[0];
+}
+
+std::optional<SurfacePatch> PatchFit::patch(PatchSolution found) {
+  const Axes ax(input_->axis);
   Excluded excluded{};
-  Solution found = solve(window_, prior, options_);
-  double variance = point_variance(window_, found.k, options_.point_variance);
-  for (int round = 0; round < 2 && find_wild_cells(input_, ax, found.k, variance, excluded); ++round) {
-    window_ = window_of(input_, excluded);
+  double variance = point_variance(window_, found.k, options_->point_variance);
+  for (int round = 0; round < 2 && find_wild_cells(*input_, ax, found.k, variance, excluded); ++round) {
+    look(*input_, excluded, window_);
     if (!possible()) return std::nullopt;
-    found = solve(window_, prior, options_);
-    variance = point_variance(window_, found.k, options_.point_variance);
+    found = solved_again();
+    variance = point_variance(window_, found.k, options_->point_variance);
   }
   if (slopes_at(found.k, 0, 0).along_h() < kSteepest) return std::nullopt;
-  return patch_from(input_, ax, window_, found, variance);
+  return patch_from(*input_, ax, window_, found, variance);
 }
 
 }  // namespace linescope

@@ -15,6 +15,7 @@
 
 #include "viewer/surface/column_runs.hpp"
 #include "viewer/surface/mesher_options.hpp"
+#include "viewer/surface/patch_solver.hpp"
 
 namespace linescope {
 
@@ -28,12 +29,6 @@ struct PatchColumn {
 struct PatchInput {
   int axis = 2;                        ///< h: 0, 1 or 2; u and v are the next two, cyclically
   std::array<PatchColumn, 9> columns;  ///< (u, v) from (-1, -1), u running fastest; 4 is the middle
-};
-
-/// What is believed about d, e, f before the columns are looked at.
-struct CurvaturePrior {
-  std::array<double, 3> mean{};
-  double variance = 0;  ///< of d and f, intervals^-2; e has four times as much
 };
 
 struct PatchOptions {
@@ -56,14 +51,6 @@ struct SurfacePatch {
   std::array<double, 3> curvature{};  ///< d, e, f
 };
 
-/// A column from the middle of the neighbourhood's middle column.
-struct WindowColumn {
-  double w = 0, points = 0;
-  double u = 0, v = 0, h = 0;                             ///< means
-  double uu = 0, uv = 0, vv = 0, uh = 0, vh = 0, hh = 0;  ///< covariance of the points
-  bool empty() const { return w == 0; }
-};
-
 /// All nine columns, and what they say together.
 struct PatchWindow {
   std::array<WindowColumn, 9> columns{};
@@ -72,11 +59,12 @@ struct PatchWindow {
   double axis_share = 0;  ///< square of the normal's component along h, from the covariance of all points
 };
 
-/// One fit, in two steps, because what curvature to believe in may not be known at first.
+/// One fit, in steps: what curvature to believe in may not be known at first, and equations are solved four
+/// at a time.
 class PatchFit {
  public:
-  /// Both must outlive the fit.
-  PatchFit(const PatchInput& input, const PatchOptions& options);
+  /// Looks at the columns. Both must stay as they are until patch() was called.
+  void begin(const PatchInput& input, const PatchOptions& options);
 
   /// False when there are too few points or lines, when they lie along a line, or when the surface does not
   /// look along the axis: there is no patch, whatever the curvature.
@@ -85,14 +73,23 @@ class PatchFit {
   /// True when every column has a fair share of points: the patch then shows its curvature by itself.
   bool has_all_columns() const;
 
+  void believe(const CurvaturePrior& prior) { prior_ = prior; }
+  PatchEquations equations() const { return {&window_.columns, prior_}; }
+
   /// Nothing when wild cubes left too little, or when the axis turns out to be wrong.
-  /// Precondition: possible().
-  std::optional<SurfacePatch> patch(const CurvaturePrior& prior);
+  /// Precondition: possible(); `found` solves equations().
+  std::optional<SurfacePatch> patch(PatchSolution found);
 
  private:
-  const PatchInput& input_;
-  const PatchOptions& options_;
+  PatchSolution solved_again() const;
+
+  const PatchInput* input_ = nullptr;
+  const PatchOptions* options_ = nullptr;
+  CurvaturePrior prior_;
   PatchWindow window_;
 };
+
+/// Of a point with unit weight.
+double unit_variance(const PatchOptions& options);
 
 }  // namespace linescope
