@@ -18,15 +18,29 @@ float misfit(const Candidate& a, const Candidate& b, const LineExtractorOptions&
 
 }  // namespace
 
-bool Continuity::extend_single(CandidateList& list, int profile, const LineExtractorOptions& options) {
-  if (profile == 0) return false;
-  Candidate* const c = list.begin_of(profile);
-  const Candidate* const a = list.begin_of(profile - 1);
-  if (list.end_of(profile) - c != 1 || list.end_of(profile - 1) - a != 1 || !c->good || !a->good)
-    return false;
-  if (std::abs(c->centre - a->centre) >= allowed_step(*a, *c, options)) return false;
-  continue_with(list, *a, *c);
-  return true;
+int Continuity::extend_singles(CandidateList& list, int profile, int profiles,
+                               const LineExtractorOptions& options) {
+  const auto single = [&list](int p) {
+    Candidate* const c = list.begin_of(p);
+    return list.end_of(p) - c == 1 && c->good ? c : nullptr;
+  };
+  if (profile == 0) return 0;
+  const Candidate* before = single(profile - 1);
+  if (before == nullptr) return 0;
+  const int from = profile;
+  Piece& whole = pieces_[static_cast<std::size_t>(before->piece)];
+  Piece piece = whole;
+  for (; profile < profiles; ++profile) {
+    Candidate* const c = single(profile);
+    if (c == nullptr || std::abs(c->centre - before->centre) >= allowed_step(*before, *c, options)) break;
+    c->piece = before->piece;
+    continued_[static_cast<std::size_t>(before - list.all.data())] = 1;
+    ++piece.count;
+    piece.peaks += c->peak;
+    before = c;
+  }
+  whole = piece;
+  return profile - from;
 }
 
 void Continuity::continue_with(CandidateList& list, const Candidate& from, Candidate& to) {
@@ -69,8 +83,11 @@ void Continuity::extend(CandidateList& list, int profile, const LineExtractorOpt
 void Continuity::link(CandidateList& list, int profiles, const LineExtractorOptions& options) {
   pieces_.clear();
   continued_.assign(list.all.size(), 0);
-  for (int p = 0; p < profiles; ++p)
-    if (!extend_single(list, p, options)) extend(list, p, options);
+  for (int p = 0; p < profiles;) {
+    const int done = extend_singles(list, p, profiles, options);
+    if (done == 0) extend(list, p, options);
+    p += std::max(done, 1);
+  }
   for (Piece& piece : pieces_) {
     piece.weight = 0.5 * std::min(1.0, piece.count / (3.0 * options.min_run));
     piece.peaks /= piece.count;

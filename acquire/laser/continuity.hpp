@@ -23,8 +23,9 @@ class Continuity {
     double weight = 0;  ///< of a peak in the support
   };
   void extend(CandidateList& candidates, int profile, const LineExtractorOptions& options);
-  /// The common case, one candidate after one; false: look closer.
-  bool extend_single(CandidateList& candidates, int profile, const LineExtractorOptions& options);
+  /// The common case, one candidate after one: how many profiles, from `profile` on, it lasts.
+  int extend_singles(CandidateList& candidates, int profile, int profiles,
+                     const LineExtractorOptions& options);
   void continue_with(CandidateList& candidates, const Candidate& from, Candidate& to);
   std::vector<Piece> pieces_;
   std::vector<char> continued_;  ///< per candidate: something already goes on from it

@@ -130,7 +130,9 @@ void LightWindow::judge(Run run) {
   const float lead_ambient = patch_ ? scene_[0] : flank_mean(lead_);
   calm_mix_[k - 1] = -std::min(kMostScale, lead_ambient / ambient);
   structure_ = range_of(calm_.data(), rounded_up(size_));
-  if (structure_ > range_of(lead_.data(), rounded_up(size_)) / 5 + 8) mix_ = calm_mix_;
+  constexpr float kLeast = 8;
+  if (structure_ > kLeast && structure_ > range_of(lead_.data(), rounded_up(size_)) / 5 + kLeast)
+    mix_ = calm_mix_;
 }
 
 void LightWindow::blend() {

@@ -16,7 +16,13 @@ std::uint32_t& at(NoPointCounts& counts, NoPoint reason) {
 void LineChoice::choose(CandidateList& candidates, const LineExtractorOptions& options, ExtractedLine& line) {
   chosen_.clear();
   const int profiles = line.profiles();
-  for (int p = 0; p < profiles; ++p) choose_in(candidates, p, options, line);
+  for (int p = 0; p < profiles; ++p) {
+    const Candidate* const c = candidates.begin_of(p);
+    if (candidates.end_of(p) - c == 1 && c->good)  // the rule
+      chosen_.push_back({c, nullptr, c->sigma});
+    else
+      choose_in(candidates, p, options, line);
+  }
   if (options.centre == CentreMethod::gauss_weighted) smooth_widths();
 }
 
