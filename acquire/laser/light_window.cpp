@@ -28,6 +28,9 @@ float range_of(const std::uint8_t* v, int n) {
 }
 
 int count_from(const std::uint8_t* v, int n, int level) {
+  std::uint8_t most = 0;
+  for (int i = 0; i < n; ++i) most = std::max(most, v[i]);
+  if (most < level) return 0;  // the rule, and quicker to see than to count
   int count = 0;
   for (int i = 0; i < n; ++i) count += v[i] >= level ? 1 : 0;
   return count;
@@ -89,9 +92,9 @@ void LightWindow::pick_calm_channel(Run run) {
 }
 
 float LightWindow::flank_mean(const Bytes& bytes) const {
-  const std::uint8_t *a = bytes.data(), *b = a + size_ - flank_;
+  const std::uint8_t *a = bytes.data(), *b = a + size_ - 1;
   int sum = 0;
-  for (int i = 0; i < flank_; ++i) sum += a[i] + b[i];
+  for (int i = 0; i < kFlank && i < flank_; ++i) sum += a[i] + b[-i];  // at most kFlank: no vectors
   return static_cast<float>(sum) / static_cast<float>(2 * flank_);
 }
 
@@ -105,7 +108,7 @@ ChannelMeans LightWindow::flanks() const {
   ChannelMeans mean{};
   for (int c = 0; c < 3; ++c) {
     int sum = 0;
-    for (int i = 0; i < flank_; ++i) sum += value(c, i) + value(c, size_ - 1 - i);
+    for (int i = 0; i < kFlank && i < flank_; ++i) sum += value(c, i) + value(c, size_ - 1 - i);
     mean[static_cast<std::size_t>(c)] = static_cast<float>(sum) / static_cast<float>(2 * flank_);
   }
   return mean;
@@ -147,7 +150,7 @@ void LightWindow::blend() {
           light[i] + static_cast<int>(mix_[m] * static_cast<float>(value(static_cast<int>(m) + 1, i))));
   }
   int left = 0, right = 0;
-  for (int i = 0; i < flank_; ++i) {
+  for (int i = 0; i < kFlank && i < flank_; ++i) {
     left += light[i];
     right += light[size_ - 1 - i];
   }
