@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/surface/rim_lid.hpp"
 #include "viewer/surface/small_solver.hpp"
 
 namespace linescope {
@@ -219,17 +220,64 @@ void fill(TriangleMesh& mesh, const RimPlane& plane, Rim ring, double edge) {
   mesh.origin.resize(mesh.triangle_count(), TriangleOrigin::filled);
 }
 
+/// Whether two of the rim's vertices are joined by an edge, by their places in the rim.
+std::vector<bool> joined_in(const TriangleMesh& mesh, const Rim& rim) {
+  std::unordered_multimap<Vertex, std::size_t> places;
+  for (std::size_t i = 0; i < rim.size(); ++i) places.emplace(rim[i], i);
+  std::vector<bool> joined(rim.size() * rim.size());
+  const auto mark = [&](Vertex a, Vertex b) {
+    const auto [first, last] = places.equal_range(a);
+    const auto [other_first, other_last] = places.equal_range(b);
+    for (auto i = first; i != last; ++i)
+      for (auto j = other_first; j != other_last; ++j)
+        joined[i->second * rim.size() + j->second] = joined[j->second * rim.size() + i->second] = true;
+  };
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) mark(t[i], t[(i + 1) % 3]);
+  return joined;
+}
+
+/// Over a rim that is not star-shaped. Its corners carry their misfit to the quadric as height, so that the
+/// new ones in between meet the rim.
+bool fill_any_shape(TriangleMesh& mesh, const RimPlane& plane, const Rim& rim, double edge) {
+  const std::size_t n = rim.size();
+  const std::vector<bool> joined = joined_in(mesh, rim);
+  const std::vector<Eigen::Vector3d> corners(plane.rim.rbegin(), plane.rim.rend());
+  auto lid = triangulate_rim(
+      corners, [&](std::size_t i, std::size_t j) { return joined[(n - 1 - i) * n + (n - 1 - j)]; });
+  if (!lid) return false;
+  for (Eigen::Vector3d& c : lid->corners) c.z() -= plane.height(c.x(), c.y());
+  split_long_edges(*lid, 1.5 * edge, 16 * kMaxRimCorners);
+  std::vector<Vertex> vertices(rim.rbegin(), rim.rend());
+  for (std::size_t i = n; i < lid->corners.size(); ++i) {
+    const Eigen::Vector3d& c = lid->corners[i];
+    vertices.push_back(add_vertex(mesh, plane, {c.x(), c.y(), plane.height(c.x(), c.y()) + c.z()}));
+  }
+  for (const auto& [a, b, c] : lid->triangles)
+    mesh.triangles.push_back({vertices[a], vertices[b], vertices[c]});
+  mesh.origin.resize(mesh.triangle_count(), TriangleOrigin::filled);
+  return true;
+}
+
+/// The counter of what became of a hole.
+std::size_t& close(TriangleMesh& mesh, const Rim& rim, double longest_rim, HoleCounts& counts) {
+  const double length = length_of(mesh, rim), edge = length / static_cast<double>(rim.size());
+  if (length > longest_rim) return counts.too_long;
+  const RimPlane plane = plane_of(mesh, rim);
+  if (star_shaped(plane)) {
+    fill(mesh, plane, rim, edge);
+    return counts.filled;
+  }
+  if (rim.size() > kMaxRimCorners) return counts.too_many;
+  return fill_any_shape(mesh, plane, rim, edge) ? counts.filled : counts.crossing;
+}
+
 }  // namespace
 
 HoleCounts fill_holes(TriangleMesh& mesh, double longest_rim) {
   HoleCounts counts;
-  for (const Rim& rim : holes_of(mesh)) {
-    const double length = length_of(mesh, rim);
-    const RimPlane plane = plane_of(mesh, rim);
-    const bool fits = length <= longest_rim && star_shaped(plane);
-    ++(fits ? counts.filled : counts.left);
-    if (fits) fill(mesh, plane, rim, length / static_cast<double>(rim.size()));
-  }
+  for (const Rim& rim : holes_of(mesh)) ++close(mesh, rim, longest_rim, counts);
+  counts.left = counts.too_long + counts.too_many + counts.crossing;
   return counts;
 }
 

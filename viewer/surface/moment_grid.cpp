@@ -64,8 +64,8 @@ bool MomentGrid::add_to_cell(GridIndex at, const MomentSums& sums) {
   if (number == SparseIndex::kNone) return false;
   MomentCell& cell = cells_[number];
   if (cell.line != line_) begin_line_in(number);
-  auto& first = line_cells_[static_cast<std::size_t>(cell.line_slot)].first;
-  for (std::size_t i = 0; i < 4; ++i) first[i] += sums.first[i];
+  LineCell& part = line_cells_[static_cast<std::size_t>(cell.line_slot)];
+  for (std::size_t i = 0; i < 4; ++i) part.first[i] += sums.first[i];
   cell.content.sums.add(sums);
   return true;
 }
@@ -83,7 +83,7 @@ void MomentGrid::begin_line_in(std::int32_t number) {
   ++cell.content.lines;
   cell.line = line_;
   cell.line_slot = static_cast<std::int32_t>(line_cells_.size());
-  line_cells_.push_back({number, {}});
+  line_cells_.emplace_back().cell = number;  // in place: a copy waits for what was just written
   flag_changed(number);
 }
 

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "tests/unit/surface/mesh_topology.hpp"
 #include "tests/unit/surface/surface_phantom.hpp"
 #include "viewer/surface/mesher.hpp"
+#include "viewer/surface/rim_lid.hpp"
 
 namespace linescope {
 namespace {
@@ -117,14 +119,90 @@ TEST(HoleFiller, HolesThatTouchInACornerAreTwoHoles) {
   EXPECT_EQ(testing::topology_of(mesh).open_edges, 24u);
 }
 
-TEST(HoleFiller, ARimThatHidesPartOfItselfIsLeftOpenRatherThanFolded) {
-  const TriangleMesh bent =
-      flat_mesh(8, {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {5, 2}, {5, 3}, {5, 4}, {5, 5}});
+std::vector<std::array<int, 2>> bent_hole() {
+  return {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {5, 2}, {5, 3}, {5, 4}, {5, 5}};
+}
+
+TEST(HoleFiller, ARimThatHidesPartOfItselfIsClosedWithoutAFold) {
+  const TriangleMesh bent = flat_mesh(8, bent_hole());
   TriangleMesh mesh = bent;
   const HoleCounts counts = fill_holes(mesh, 100);
+  EXPECT_EQ(counts.filled, 1u);
+  EXPECT_EQ(counts.left, 0u);
+  EXPECT_NEAR(mesh.area(), 64, 1e-4);  // more would be a fold
+  const auto topology = testing::topology_of(mesh);
+  EXPECT_EQ(topology.euler(), 1);
+  EXPECT_EQ(topology.repeated_edges, 0u);
+  EXPECT_EQ(topology.open_edges, 32u);
+  EXPECT_EQ(mesh.filled_count(), mesh.triangle_count() - bent.triangle_count());
+  for (const auto& [a, b, c] : mesh.triangles)
+    EXPECT_GT((mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).z(), 0);
+  for (std::size_t i = bent.vertex_count(); i < mesh.vertex_count(); ++i) {
+    EXPECT_EQ(mesh.observations[i], 0u);
+    EXPECT_TRUE(std::isnan(mesh.uncertainty[i]));
+  }
+}
+
+// The same bend in a sphere: the lid goes on with its curvature. Its straight edges alone would lie up to
+// 0.1 mm low.
+TEST(HoleFiller, ABentHoleInASphereFollowsTheSphere) {
+  constexpr float kRadius = 25;
+  TriangleMesh mesh = flat_mesh(8, bent_hole());
+  const std::size_t measured = mesh.vertex_count();
+  for (std::size_t i = 0; i < measured; ++i) {
+    Eigen::Vector3f& p = mesh.positions[i];
+    p = Eigen::Vector3f(p.x() - 4, p.y() - 4, kRadius).normalized() * kRadius;
+    mesh.normals[i] = p.normalized();
+  }
+  EXPECT_EQ(fill_holes(mesh, 100).filled, 1u);
+  for (std::size_t i = measured; i < mesh.vertex_count(); ++i) {
+    EXPECT_NEAR(mesh.positions[i].norm(), kRadius, 0.03) << i;
+    EXPECT_GT(mesh.normals[i].dot(mesh.positions[i].normalized()), std::cos(0.1f)) << i;
+  }
+}
+
+TEST(HoleFiller, RimsWithTooManyVerticesAreLeftAndCounted) {
+  std::vector<std::array<int, 2>> spiral;  // a comb: some 2 x 40 x 3 rim vertices, seen from nowhere at once
+  for (int x = 1; x < 41; ++x) spiral.push_back({x, 1});
+  for (int x = 1; x < 41; x += 4)
+    for (int y = 2; y < 12; ++y) spiral.push_back({x, y});
+  const TriangleMesh comb = flat_mesh(42, spiral);
+  TriangleMesh mesh = comb;
+  HoleCounts counts = fill_holes(mesh, 100);
+  EXPECT_EQ(counts.too_long, 1u);
+  counts = fill_holes(mesh, 1000);
   EXPECT_EQ(counts.filled, 0u);
+  EXPECT_EQ(counts.too_many, 1u);
   EXPECT_EQ(counts.left, 1u);
-  EXPECT_EQ(mesh.triangles, bent.triangles);
+  EXPECT_EQ(mesh.triangles, comb.triangles);
+}
+
+TEST(RimLid, ARimThatCrossesItselfSeenFromAboveHasNoLid) {
+  const auto nothing_taken = [](std::size_t, std::size_t) { return false; };
+  const std::vector<Eigen::Vector3d> eight{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}};
+  EXPECT_FALSE(triangulate_rim(eight, nothing_taken).has_value());
+  std::vector<Eigen::Vector3d> clockwise{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
+  EXPECT_FALSE(triangulate_rim(clockwise, nothing_taken).has_value());
+  std::reverse(clockwise.begin(), clockwise.end());
+  EXPECT_TRUE(triangulate_rim(clockwise, nothing_taken).has_value());
+  EXPECT_FALSE(triangulate_rim({}, nothing_taken).has_value());
+}
+
+// A square with one corner up: cut off (1-3) its area is 1.366, cut through (0-2) 1.414.
+TEST(RimLid, HasTheLeastAreaAndJoinsNothingTwice) {
+  const std::vector<Eigen::Vector3d> bent{{0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const auto area_of = [&](const RimLid& lid) {
+    double area = 0;
+    for (const auto& [a, b, c] : lid.triangles)
+      area += 0.5 * (bent[b] - bent[a]).cross(bent[c] - bent[a]).norm();
+    return area;
+  };
+  const auto free = triangulate_rim(bent, [](std::size_t, std::size_t) { return false; });
+  ASSERT_TRUE(free.has_value());
+  EXPECT_NEAR(area_of(*free), 0.5 + std::sqrt(3) / 2, 1e-12);
+  const auto bound = triangulate_rim(bent, [](std::size_t i, std::size_t j) { return i == 1 && j == 3; });
+  ASSERT_TRUE(bound.has_value());
+  EXPECT_NEAR(area_of(*bound), std::sqrt(2), 1e-12);
 }
 
 TEST(HoleFiller, AnEmptyMeshAndALoneTriangleStayAsTheyAre) {
