@@ -112,6 +112,8 @@ void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) 
   s.peak = peak;
   s.snr = peak / line.noise;
   s.saturated = c.first->saturated;
+  line.mean_snr += s.snr;
+  line.saturated_fraction += s.saturated > 0 ? 1.0F : 0.0F;
   if (c.second != nullptr) {
     s.second = c.second->centre;
     s.second_ratio = c.second->support / c.first->support;
@@ -121,14 +123,9 @@ void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) 
 
 void LineExtractor::Work::finish() {
   if (line.samples.empty()) return;
-  float snr = 0, saturated = 0;
-  for (const LineSample& s : line.samples) {
-    snr += s.snr;
-    saturated += s.saturated > 0 ? 1.0F : 0.0F;
-  }
   const auto n = static_cast<float>(line.samples.size());
-  line.mean_snr = snr / n;
-  line.saturated_fraction = saturated / n;
+  line.mean_snr /= n;
+  line.saturated_fraction /= n;
 }
 
 LineExtractor::LineExtractor(const LineExtractorOptions& options) : work_(std::make_unique<Work>(options)) {}

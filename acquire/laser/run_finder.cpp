@@ -134,8 +134,16 @@ void RunFinder::close_columns(int height) {
     for (std::uint32_t open = last[w]; open != 0; open &= open - 1)
       open_last_[w * kMaskGroup + static_cast<std::size_t>(std::countr_zero(open))] =
           static_cast<std::int16_t>(height - 1);
-  for (std::size_t x = 0; x < open_last_.size(); ++x)
-    if (open_last_[x] != kNone) close(static_cast<int>(x), {open_first_[x], open_last_[x]});
+  for (std::size_t x = 0; x < count_.size(); ++x) {
+    const Run run{open_first_[x], open_last_[x]};
+    if (run.last == kNone) continue;
+    if (count_[x] > 0) {
+      close(static_cast<int>(x), run);
+      continue;
+    }
+    runs_[x] = run;  // the rule
+    count_[x] = 1;
+  }
 }
 
 void RunFinder::take_row(int y, const std::uint32_t* words, int count) {
