@@ -8,6 +8,8 @@
 
 namespace linescope {
 
+namespace {
+
 // Where a box begins, in steps, and what a step from one of its places to the next is worth.
 struct TileFrame {
   TileFrame(const TileBox& box, std::int32_t shift)
@@ -23,8 +25,6 @@ struct TileFrame {
     return static_cast<std::size_t>(x + stride[1] * y + stride[2] * z);
   }
 };
-
-namespace {
 
 void add_point(const PlacedBlock& block, std::size_t lane, MomentSums& sums) {
   constexpr std::int32_t mask = kSteps - 1;
@@ -44,7 +44,8 @@ void add_point(const PlacedBlock& block, std::size_t lane, MomentSums& sums) {
 #define LINESCOPE_AVX2 __attribute__((target("avx2"))) inline
 
 bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
+  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
+                          __builtin_cpu_supports("popcnt") != 0;
   return has;
 }
 

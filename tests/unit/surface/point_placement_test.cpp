@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/unit/surface/surface_phantom.hpp"
-#include "viewer/surface/line_quantizer.hpp"
+#include "viewer/surface/moment_grid.hpp"
 #include "viewer/surface/point_tile.hpp"
 
 namespace linescope {
@@ -153,6 +153,29 @@ TEST(MomentTile, TheLargestSumsDoNotOverflow) {
     ASSERT_EQ(cubes.size(), 1u);
     EXPECT_TRUE(by_place(cubes) == defined_sums(batch, box)) << within;
   }
+}
+
+// More points than a batch takes: the cubes that several batches touch add up, and are one line's.
+TEST(MomentGrid, ALineOfManyBatchesIsOneLine) {
+  const auto blocks = placed_blocks(mixed_points(5000, 33), 2.54);
+  const PlacedBounds bounds = bounds_of(blocks);
+  const TileBox box = box_of(bounds, 0);
+  MomentGrid grid(2.54, std::size_t{1} << 30);
+  grid.begin_sweep();
+  EXPECT_EQ(grid.add_line({blocks, bounds, {}}, {0, 0, 100}), bounds.usable);
+  const auto expected = defined_sums(blocks, box);
+  ASSERT_EQ(grid.occupied(), expected.size());
+  for (std::size_t i = 0; i < grid.cell_count(); ++i) {
+    const MomentCell& cell = grid.cell(static_cast<std::int32_t>(i));
+    EXPECT_EQ(cell.content.lines, 1);
+    EXPECT_TRUE(cell.content.sums == expected.at(box.index_of(cell.at)));
+  }
+  // Taking it back leaves nothing, and what comes then is new.
+  EXPECT_EQ(grid.remove_last_sweep(), static_cast<std::int64_t>(bounds.usable));
+  EXPECT_EQ(grid.occupied(), 0u);
+  grid.begin_sweep();
+  EXPECT_EQ(grid.add_line({blocks, bounds, {}}, {0, 0, 100}), bounds.usable);
+  EXPECT_EQ(grid.occupied(), expected.size());
 }
 
 TEST(CountPoints, TheFormInUseEqualsThePlainOne) {
