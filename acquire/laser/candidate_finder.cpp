@@ -133,7 +133,7 @@ void CandidateFinder::add_follower(const Neighbour& n, Run run, const LightSums&
 
 bool CandidateFinder::follow(const Profile& profile, Run run, CandidateList& out) {
   const Neighbour& n = neighbour();
-  if (n.profile != index_ - 1 || n.followers >= kFollowers || !continues(n.run, run)) return false;
+  if (!n.before(index_) || n.followers >= kFollowers || !continues(n.run, run)) return false;
   const LightSums light = light_sums(profile, run, excess_, n.background);
   if (!like_the_line(light)) return false;
   add_follower(n, run, light, out);
@@ -144,7 +144,7 @@ bool CandidateFinder::follow(const Profile& profile, Run run, CandidateList& out
 bool CandidateFinder::follow_at_once(const Source& source) {
   const Neighbour& n = neighbour();
   const int from = index_, most = kFollowers - n.followers;
-  if (n.profile != from - 1 || most <= 0 || !continues(n.run, source.runs.only_run(from))) return false;
+  if (!n.before(from) || most <= 0 || !continues(n.run, source.runs.only_run(from))) return false;
   block_.collect(source.runs, from, most);
   light_sums(block_, excess_, n.background, lights_);
   Run before = n.run;

@@ -66,6 +66,7 @@ class CandidateFinder {
     int candidate = 0;   ///< of the close look, in CandidateList::all
     int background = 0;  ///< grey levels
     int followers = 0;   ///< since the last close look
+    bool before(int index) const { return profile >= 0 && profile == index - 1; }
   };
   Neighbour& next() { return neighbours_[static_cast<std::size_t>(index_ & 1)]; }
   const Neighbour& neighbour() const { return neighbours_[static_cast<std::size_t>(~index_ & 1)]; }

@@ -57,6 +57,19 @@ TEST(Rejection, AGreenishLineInBlueLightIsFoundByItsRise) {
   EXPECT_TRUE(extract(room).samples.empty());
 }
 
+TEST(Rejection, TheFirstProfileReliesOnNoNeighbour) {
+  for (const ProfileAxis axis : {ProfileAxis::column, ProfileAxis::row}) {
+    cv::Mat picture(160, 200, CV_8UC3, cv::Scalar(10, 12, 10));
+    (axis == ProfileAxis::column ? picture.at<cv::Vec3b>(2, 0) : picture.at<cv::Vec3b>(0, 2)) = {10, 200, 10};
+    LineExtractorOptions options;
+    options.axis = axis;
+    options.min_width = 3;
+    const ExtractedLine line = extract(picture, options);
+    EXPECT_EQ(line.count(NoPoint::too_narrow), 1U);
+    EXPECT_EQ(line.count(NoPoint::isolated), 0U);
+  }
+}
+
 TEST(Rejection, BelowTheNoiseLimitIsTooDim) {
   LineScene scene = one_line();
   scene.noise = 4;
