@@ -22,10 +22,13 @@ namespace linescope {
 /// colour.
 class CandidateFinder {
  public:
-  explicit CandidateFinder(const LineExtractorOptions& options)
+  /// `at_once`: profiles are taken several at a time where they allow it; the candidates are the same
+  /// without.
+  explicit CandidateFinder(const LineExtractorOptions& options, bool at_once = block_sums_known())
       : options_(options),
         excess_(options.colour),
-        levels_{options.colour_threshold, options.saturation_level} {}
+        levels_{options.colour_threshold, options.saturation_level},
+        at_once_(at_once) {}
 
   /// Starts a picture. `colour` is the laser's, or mono for grey pictures; `scene` the mean of the picture
   /// without the laser, in the order of Profile's channels.
@@ -77,7 +80,7 @@ class CandidateFinder {
   LineExtractorOptions options_;
   ColourExcess excess_;
   MeanLevels levels_;
-  bool at_once_ = block_sums_known();
+  bool at_once_ = false;
   int length_ = 0;  ///< of the profiles
   int index_ = 0;
   LightWindow window_;
