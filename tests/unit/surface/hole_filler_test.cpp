@@ -143,22 +143,33 @@ TEST(HoleFiller, ARimThatHidesPartOfItselfIsClosedWithoutAFold) {
   }
 }
 
-// The same bend in a sphere: the lid goes on with its curvature. Its straight edges alone would lie up to
-// 0.1 mm low.
+// A bend three squares wide in a sphere: new vertices go on with its curvature. Edges straight across the
+// hole would lie more than 0.1 mm low.
 TEST(HoleFiller, ABentHoleInASphereFollowsTheSphere) {
   constexpr float kRadius = 25;
-  TriangleMesh mesh = flat_mesh(8, bent_hole());
-  const std::size_t measured = mesh.vertex_count();
+  std::vector<std::array<int, 2>> missing;
+  for (int y = 1; y < 11; ++y)
+    for (int x = 1; x < 11; ++x)
+      if (y < 4 || x > 7) missing.push_back({x, y});
+  TriangleMesh mesh = flat_mesh(12, missing);
+  const std::size_t measured = mesh.vertex_count(), before = mesh.triangle_count();
   for (std::size_t i = 0; i < measured; ++i) {
     Eigen::Vector3f& p = mesh.positions[i];
-    p = Eigen::Vector3f(p.x() - 4, p.y() - 4, kRadius).normalized() * kRadius;
+    p = Eigen::Vector3f(p.x() - 6, p.y() - 6, kRadius).normalized() * kRadius;
     mesh.normals[i] = p.normalized();
   }
   EXPECT_EQ(fill_holes(mesh, 100).filled, 1u);
+  ASSERT_GT(mesh.vertex_count(), measured + 10);
   for (std::size_t i = measured; i < mesh.vertex_count(); ++i) {
     EXPECT_NEAR(mesh.positions[i].norm(), kRadius, 0.03) << i;
     EXPECT_GT(mesh.normals[i].dot(mesh.positions[i].normalized()), std::cos(0.1f)) << i;
   }
+  for (std::size_t i = before; i < mesh.triangle_count(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    EXPECT_NEAR((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]).norm() / 3, kRadius, 0.05) << i;
+  }
+  EXPECT_EQ(testing::topology_of(mesh).euler(), 1);
+  EXPECT_EQ(testing::topology_of(mesh).repeated_edges, 0u);
 }
 
 TEST(HoleFiller, RimsWithTooManyVerticesAreLeftAndCounted) {
