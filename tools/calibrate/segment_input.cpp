@@ -11,10 +11,13 @@ namespace linescope::calibrate {
 namespace {
 
 constexpr Nanoseconds kWait = 20 * kMillisecond;
+/// A daemon that was stopped or starved for a moment goes on; one that was killed does not.
+constexpr Nanoseconds kPatience = 3 * kSecond;
 
 Result<void> still_there(const SegmentReader& reader) {
   const LifeReport report = reader.report(monotonic_now());
-  if (report.life == Life::live) return {};
+  const bool may_come_back = report.life == Life::silent && report.silent_for < kPatience;
+  if (report.life == Life::live || may_come_back) return {};
   return fail(ErrorCode::gone, report.text + ": nothing was calibrated");
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "common/units.hpp"
 #include "ipc/segment_reader.hpp"
 #include "tests/integration/acquire/daemon_under_test.hpp"
@@ -100,12 +102,17 @@ TEST_F(LiveStep, TimeRefusesACameraOfAnotherPictureSize) {
   EXPECT_THAT(run.err, HasSubstr("run the camera step first"));
 }
 
+/// At 30 pictures a second these lines are the five seconds of a pass to and fro: wherever in it the program
+/// begins, and however many pictures a slow machine leaves out, it sees two passes.
+const std::vector<std::string> kSweeps{"twin.phantom=cylinder-50", "twin.scenario=sweeps",
+                                       "twin.noise=ideal"};
+const std::vector<std::string> kCheckOfCylinder{"check", "--set", "check.shape=cylinder", "--set",
+                                                "check.most_lines=150"};
+
 TEST_F(LiveStep, CheckJudgesAScanAndTheTrackerAtRest) {
-  start({"twin.phantom=cylinder-50", "twin.scenario=sweeps", "twin.noise=ideal"});
+  start(kSweeps);
   begin_with(truth_);
-  const std::vector<std::string> cylinder{"check", "--set", "check.shape=cylinder", "--set",
-                                          "check.most_lines=150"};
-  const Finished good = calibrate(cylinder);
+  const Finished good = calibrate(kCheckOfCylinder);
   ASSERT_EQ(good.code, 0) << good.err << good.out;
   EXPECT_THAT(good.out, HasSubstr("verdict: good"));
   EXPECT_THAT(good.out, HasSubstr("sensor 2 at rest: drift"));
@@ -115,14 +122,30 @@ TEST_F(LiveStep, CheckJudgesAScanAndTheTrackerAtRest) {
 
 // The laser plane in the file is half a millimetre off: the daily check has to see it.
 TEST_F(LiveStep, CheckRefusesAnInstrumentThatIsOff) {
-  start({"twin.phantom=cylinder-50", "twin.scenario=sweeps", "twin.noise=ideal"});
+  start(kSweeps);
   Calibration off = truth_;
   off.laser.offset += 0.5;
   begin_with(off);
-  const Finished run = calibrate({"check", "--set", "check.shape=cylinder", "--set", "check.most_lines=150"});
+  const Finished run = calibrate(kCheckOfCylinder);
   EXPECT_EQ(run.code, 9) << run.out;
   EXPECT_THAT(run.err, HasSubstr("error above limit"));
   EXPECT_THAT(run.err, HasSubstr("bias"));
+}
+
+// As a machine does that has something better to do for a moment.
+TEST_F(LiveStep, ADaemonThatPausesForAMomentIsWaitedFor) {
+  start({"twin.scenario=pivot"});
+  begin_with(truth_);
+  ChildProcess program({LINESCOPE_CALIBRATE, "harvester", "--segment", daemon_->segment(), "--calibration",
+                        file(), "--set", "harvester.most_poses=1200"});
+  ASSERT_TRUE(
+      testing::eventually([&] { return program.standard_error().find("poses good") != std::string::npos; }));
+  daemon_->process().send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  daemon_->process().send(SIGCONT);
+  const auto end = program.wait(std::chrono::seconds(60));
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->code, 0) << program.standard_error();
 }
 
 TEST_F(LiveStep, ADaemonThatDiesEndsTheStepWithASentence) {

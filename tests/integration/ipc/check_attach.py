@@ -47,6 +47,10 @@ def main(folder, name, document):
     import attach
     same_layout(attach, document)
     segment = attach.Segment(name)
+    for _ in range(1000):  # a starved writer is silent for a moment
+        if segment.life() == "live":
+            break
+        time.sleep(0.01)
     need(segment.life() == "live", "life")
     checked = lines_are_complete(segment)
     picture = segment.picture()

@@ -46,6 +46,16 @@ class PublisherTest : public ::testing::Test {
     return finished;
   }
 
+  /// linescope-inspect once; again when it says that the publisher is silent, which on a busy machine is the
+  /// truth for a moment.
+  Finished inspect(std::vector<std::string> options = {}) const {
+    options.insert(options.begin(), {LINESCOPE_INSPECT, name_});
+    constexpr int kSilent = 4;
+    Finished finished = run(options);
+    for (int i = 0; i < 10 && finished.exit_code == kSilent; ++i) finished = run(options);
+    return finished;
+  }
+
   void TearDown() override {
     publisher_.reset();
     ::unlink(("/dev/shm/" + name_).c_str());

@@ -12,20 +12,18 @@ using Inspect = PublisherTest;
 
 TEST_F(Inspect, ShowsALivingSegment) {
   start_publisher("100");
-  const Finished finished = run({LINESCOPE_INSPECT, name_});
+  const Finished finished = inspect();
   EXPECT_EQ(finished.exit_code, 0) << finished.output;
   EXPECT_THAT(finished.output, AllOf(HasSubstr("life      live"), HasSubstr("state     scanning"),
                                      HasSubstr("made-up lines"), HasSubstr("sensor 1  endoscope"),
                                      HasSubstr("nominal 240 Hz"), HasSubstr("lines_published")));
   EXPECT_THAT(finished.output, Not(HasSubstr("frames_unreadable"))) << "zeros only with --all";
-  EXPECT_THAT(run({LINESCOPE_INSPECT, name_, "--all"}).output,
-              AllOf(HasSubstr("frames_unreadable"), HasSubstr("extract")));
+  EXPECT_THAT(inspect({"--all"}).output, AllOf(HasSubstr("frames_unreadable"), HasSubstr("extract")));
 }
 
 TEST_F(Inspect, WatchesAsOftenAsAsked) {
   start_publisher("100");
-  const Finished finished =
-      run({LINESCOPE_INSPECT, name_, "--watch", "--json", "--times", "3", "--interval", "0.02"});
+  const Finished finished = inspect({"--watch", "--json", "--times", "3", "--interval", "0.02"});
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(std::count(finished.output.begin(), finished.output.end(), '\n'), 3);
 }

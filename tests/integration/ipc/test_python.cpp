@@ -56,16 +56,15 @@ TEST_F(Python, TheJsonOfInspectIsJson) {
   LINESCOPE_NEEDS_PYTHON();
   start_publisher("100");
   const std::string program =
-      "import json, subprocess, sys\n"
-      "out = subprocess.run(sys.argv[1:], capture_output=True, text=True, check=True).stdout\n"
-      "s = json.loads(out)\n"
+      "import json, sys\n"
+      "s = json.loads(sys.argv[1])\n"
       "assert s['life'] == 'live' and s['state'] == 'scanning', s\n"
       "assert s['counters']['lines_published'] > 0, s\n"
       "assert len(s['sensors']) == 8 and s['sensors'][0]['name'] == 'endoscope', s\n"
       "assert s['sensors'][0]['rate']['nominal_hz'] == 240, s\n"
       "assert len(s['sensors'][0]['position_mm']) == 3, s\n"
       "assert s['scan']['lines'] > 0 and s['camera']['rate']['samples'] > 0, s\n";
-  const Finished finished = run({kPython, "-B", "-c", program, LINESCOPE_INSPECT, name_, "--json"});
+  const Finished finished = run({kPython, "-B", "-c", program, inspect({"--json"}).output});
   EXPECT_EQ(finished.exit_code, 0) << finished.output;
 }
 

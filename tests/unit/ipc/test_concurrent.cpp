@@ -173,7 +173,8 @@ TEST_F(Concurrent, StatesTextsCountersAndHeartbeatGoOnTogether) {
         if (reader.configuration(text) == ReadOutcome::ok) {
           EXPECT_EQ(text, std::string(text.size(), text.empty() ? 'x' : text[0]));
         }
-        EXPECT_EQ(reader.life(monotonic_now()), Life::live);
+        const Life life = reader.life(monotonic_now());
+        EXPECT_TRUE(life == Life::live || life == Life::silent) << name(life) << ": starved at the most";
         return reader.wait(Topic::status, kMillisecond) && reader.counters().size() == LS_COUNTER_COUNT;
       },
       500);
