@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/surface/hole_filler.hpp"
-
 namespace linescope {
 
 ImplicitMesher::ImplicitMesher(const MesherOptions& options)
@@ -42,6 +40,7 @@ void ImplicitMesher::clear() {
   patches_.clear();
   field_.clear();
   counters_ = {};
+  holes_ = {};
 }
 
 void ImplicitMesher::update() {
@@ -54,7 +53,7 @@ void ImplicitMesher::update() {
 void ImplicitMesher::write_mesh(TriangleMesh& mesh) {
   update();
   extractor_.extract(field_, mesh);
-  if (options_.fill_holes_up_to > 0) fill_holes(mesh, options_.fill_holes_up_to);
+  if (options_.fill_holes_up_to > 0) holes_ = fill_holes(mesh, options_.fill_holes_up_to);
 }
 
 std::vector<Eigen::Vector3f> ImplicitMesher::grid_vertices() {
@@ -78,6 +77,7 @@ MesherState ImplicitMesher::state() {
     if (moments_.cell(number).occupied() && !patches_.carries_surface(moments_, number)) ++result.set_aside;
   }
   result.sweeps = moments_.sweeps();
+  result.holes = holes_;
   result.memory_bytes = moments_.memory_bytes() + patches_.memory_bytes() + field_.memory_bytes();
   return result;
 }

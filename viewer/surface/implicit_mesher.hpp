@@ -40,6 +40,7 @@ class ImplicitMesher final : public Mesher {
   DistanceField field_;
   SurfaceExtractor extractor_;
   MesherCounters counters_;
+  HoleCounts holes_;
 };
 
 }  // namespace linescope

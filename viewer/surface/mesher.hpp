@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "viewer/surface/hole_filler.hpp"
 #include "viewer/surface/mesher_options.hpp"
 #include "viewer/surface/surface_line.hpp"
 #include "viewer/surface/triangle_mesh.hpp"
@@ -41,6 +42,7 @@ struct MesherState {
       0;  ///< of them: too few points or lines around to carry surface, or contradicting neighbours
   std::size_t sweeps = 0;        ///< sweeps that remove_last_sweep() could take back, one by one
   std::size_t memory_bytes = 0;  ///< held by the mesher, without the mesh itself
+  HoleCounts holes{};            ///< of the mesh written last, when holes are to be filled (implicit)
 };
 
 class Mesher {

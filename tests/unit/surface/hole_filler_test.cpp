@@ -87,6 +87,25 @@ TEST(HoleFiller, LeavesLongRimsAndTheOuterBorderOpen) {
   EXPECT_EQ(counts.filled, 0u);
 }
 
+TEST(HoleFiller, TheMesherSaysWhatBecameOfTheHoles) {
+  const auto scan = scan_with_hole();
+  MesherOptions options;
+  options.fill_holes_up_to = 8;
+  const auto strict = std::move(*make_mesher(options));
+  testing::add_all(*strict, scan.lines);
+  strict->mesh();
+  EXPECT_EQ(strict->state().holes.too_long, 1u);
+  EXPECT_EQ(strict->state().holes.filled, 0u);
+  options.fill_holes_up_to = 25;
+  const auto generous = std::move(*make_mesher(options));
+  testing::add_all(*generous, scan.lines);
+  generous->mesh();
+  EXPECT_EQ(generous->state().holes.filled, 1u);
+  EXPECT_EQ(generous->state().holes.left, 0u);
+  generous->clear();
+  EXPECT_EQ(generous->state().holes.filled, 0u);
+}
+
 /// A flat square of `cells` x `cells` squares of 1 mm, some of them missing.
 TriangleMesh flat_mesh(int cells, const std::vector<std::array<int, 2>>& missing) {
   TriangleMesh mesh;
