@@ -7,20 +7,13 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/finished_run.hpp"
+
 namespace linescope::testing {
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::filesystem::path scratch_file() {
   std::string pattern = (std::filesystem::temp_directory_path() / "linescope-test-XXXXXX").string();
@@ -103,10 +96,10 @@ std::optional<ProcessEnd> ChildProcess::wait(std::chrono::milliseconds timeout) 
 }
 
 std::string ChildProcess::standard_output() const {
-  return content(out_);
+  return file_contents(out_);
 }
 std::string ChildProcess::standard_error() const {
-  return content(err_);
+  return file_contents(err_);
 }
 
 bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds timeout) {

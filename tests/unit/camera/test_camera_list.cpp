@@ -6,7 +6,7 @@
 
 #include "acquire/camera/camera_choice.hpp"
 #include "acquire/camera/camera_list.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope {
 namespace {

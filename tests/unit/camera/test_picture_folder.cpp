@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "acquire/camera/picture_folder.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "acquire/camera/video_file.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope {
 namespace {

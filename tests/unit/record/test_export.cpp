@@ -10,8 +10,8 @@
 #include "acquire/camera/picture_folder.hpp"
 #include "acquire/record/recorder.hpp"
 #include "acquire/tracker/timed_pose_source.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/shared_data.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
 #include "tests/unit/record/sample_data.hpp"
 #include "tools/export/export_recording.hpp"
 

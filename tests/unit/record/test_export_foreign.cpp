@@ -9,8 +9,8 @@
 #include <set>
 
 #include "acquire/record/recorder.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/shared_data.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
 #include "tests/unit/record/sample_data.hpp"
 #include "tools/export/export_recording.hpp"
 

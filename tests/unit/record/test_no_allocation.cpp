@@ -9,7 +9,7 @@
 
 #include "acquire/camera/device_camera.hpp"
 #include "acquire/record/recorder.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/unit/record/sample_data.hpp"
 
 namespace {

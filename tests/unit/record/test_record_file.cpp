@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "acquire/record/record_file.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope {
 namespace {

@@ -13,7 +13,7 @@
 #include "acquire/record/recorded_tracker.hpp"
 #include "acquire/record/recorder.hpp"
 #include "acquire/record/recording.hpp"
-#include "tests/unit/camera/temporary_folder.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/unit/record/sample_data.hpp"
 
 namespace linescope {

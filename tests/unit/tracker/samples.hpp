@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "acquire/tracker/tracker_source.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope::testing {
 
@@ -28,19 +29,13 @@ inline PoseSample good_sample(int station, Nanoseconds time) {
 /// A file with this content in a folder of its own, removed at the end of the test.
 class TextFile {
  public:
-  TextFile(const std::string& name, const std::string& content) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "linescope-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    path_ = folder_ / name;
+  TextFile(const std::string& name, const std::string& content) : path_(folder_ / name) {
     std::ofstream(path_) << content;
   }
-  ~TextFile() { std::filesystem::remove_all(folder_); }
-  TextFile(const TextFile&) = delete;
-  TextFile& operator=(const TextFile&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::filesystem::path path_;
 };
 
