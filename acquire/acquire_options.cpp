@@ -144,16 +144,8 @@ void declare_liberty(ConfigSchema& schema, LibertyOptions& liberty, TrackerKeys&
 
 void declare_laser(ConfigSchema& schema, LineExtractorOptions& laser) {
   schema.section("laser", "How the laser line is found in a picture.");
-  schema.choice("laser.colour", laser.colour,
-                {{"green", LaserColour::green},
-                 {"red", LaserColour::red},
-                 {"blue", LaserColour::blue},
-                 {"cyan", LaserColour::cyan},
-                 {"violet", LaserColour::violet},
-                 {"yellow", LaserColour::yellow},
-                 {"mono", LaserColour::mono}},
-                "Colour of the laser.");
-  schema.choice("laser.axis", laser.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
+  schema.choice("laser.colour", laser.colour, kLaserColourWords, "Colour of the laser.");
+  schema.choice("laser.axis", laser.axis, kProfileAxisWords,
                 "One point per column (line runs left to right) or per row (top to bottom).");
   schema.choice(
       "laser.centre", laser.centre,

@@ -53,7 +53,7 @@ bool ToolPoseLookup::settled(Nanoseconds time) const {
 PoseAnswer ToolPoseLookup::mean_about(int station, Nanoseconds time) const {
   PoseAnswer answer = history_.pose_at(station, time);
   if (!answer.ok() || step_ == 0) return answer;
-  PoseMean mean;
+  PoseMean<> mean;
   mean.add(answer.world_from_sensor);
   for (int k = 1; k <= kInstantsPerSide; ++k) {
     const PoseAnswer before = history_.pose_at(station, time - k * step_);

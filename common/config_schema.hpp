@@ -14,6 +14,7 @@
 // docs/configuration.md. Threads: one at a time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -86,6 +87,12 @@ class ConfigSchema {
       return i;
     };
     add(std::move(key), std::move(binding), {}, {}, std::move(description));
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string key, Enum& field, const std::array<std::pair<const char*, Enum>, N>& words,
+              std::string description) {
+    choice(std::move(key), field, std::vector<std::pair<std::string, Enum>>(words.begin(), words.end()),
+           std::move(description));
   }
   /// One word of several, kept as text.
   void choice(std::string key, std::string& field, std::vector<std::string> words, std::string description);

@@ -1,8 +1,10 @@
 // The laser's colour as a camera with blue, green and red pixels sees it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "common/result.hpp"
 
@@ -23,7 +25,17 @@ enum class LaserColour : std::uint8_t {
   mono = 7,    ///< no colour to go by: monochrome cameras, and the only light in a dark scene
 };
 
-/// "green", "red", ...: the words of configuration files.
+/// As configuration files name them.
+inline constexpr std::array<std::pair<const char*, LaserColour>, 7> kLaserColourWords{
+    {{"red", LaserColour::red},
+     {"green", LaserColour::green},
+     {"blue", LaserColour::blue},
+     {"cyan", LaserColour::cyan},
+     {"violet", LaserColour::violet},
+     {"yellow", LaserColour::yellow},
+     {"mono", LaserColour::mono}}};
+
+/// The word of configuration files.
 std::string_view name(LaserColour colour);
 
 /// The colour of that name, or a sentence that lists the known ones.

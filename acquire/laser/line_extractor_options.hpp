@@ -14,6 +14,10 @@ enum class ProfileAxis : std::uint8_t {
   row,     ///< one point per row: the line runs from top to bottom
 };
 
+/// As configuration files name them.
+inline constexpr std::array<std::pair<const char*, ProfileAxis>, 2> kProfileAxisWords{
+    {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}}};
+
 enum class CentreMethod : std::uint8_t {
   weighted_mean,   ///< mean position weighted with the colour excess above the threshold: the thesis (4.2.3)
   gauss_weighted,  ///< matched Gaussian on the laser's own channel: within a tenth of the Cramer-Rao bound

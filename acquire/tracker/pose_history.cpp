@@ -149,7 +149,7 @@ PoseAnswer PoseHistory::mean_pose(int station, Nanoseconds from, Nanoseconds to)
   if (!last.ok()) return last;
   const SampleRing& ring = *rings_[static_cast<std::size_t>(station)];
   PoseSample sample;
-  PoseMean mean;
+  PoseMean<> mean;
   Nanoseconds previous = from;
   for (std::uint64_t i = find(ring, from).after_index; i < ring.end(); ++i) {
     if (!ring.read(i, sample)) return missed(PoseMiss::too_early, ToolState::stale);

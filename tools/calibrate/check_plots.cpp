@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/calibrate/chart.hpp"
+#include "tools/calibrate/sample_statistics.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -13,10 +14,7 @@ namespace {
 /// Symmetric about zero; two points in a hundred may lie beyond.
 double reach_of(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
-  if (values.empty()) return 1;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 98 / 100);
-  std::nth_element(values.begin(), at, values.end());
-  return std::max(1e-6, *at);
+  return values.empty() ? 1 : std::max(1e-6, high_value(std::move(values)));
 }
 
 Chart map_of(const ShapeCheck& check, const ShapeCheckOptions& options) {

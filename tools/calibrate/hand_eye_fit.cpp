@@ -110,9 +110,7 @@ Result<void> HandEyeFitter::check_turns() const {
 }
 
 HandEyePictures HandEyeFitter::used() const {
-  HandEyePictures all;
-  for (const HandEyePicture& p : pictures_) all.push_back(&p);
-  return all;
+  return all_of(pictures_);
 }
 
 std::optional<HandEyeSolution> HandEyeFitter::solve(const HandEyePictures& pictures,
@@ -192,8 +190,7 @@ void HandEyeFitter::check_scale(const HandEyeSolution& solution) {
 void HandEyeFitter::check_mirror() {
   std::vector<HandEyePicture> others;
   for (const HandEyePicture& p : pictures_) others.push_back(unmirrored(p));
-  HandEyePictures mirrored;
-  for (const HandEyePicture& p : others) mirrored.push_back(&p);
+  const HandEyePictures mirrored = all_of(others);
   const auto solution = solve(mirrored, fit_.weights);
   if (!solution) return;
   const double error = chain_error(mirrored, *solution, board_);

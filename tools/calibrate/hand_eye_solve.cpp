@@ -104,6 +104,12 @@ void estimate_tracker_noise(const HandEyePictures& pictures, double corner_px, s
 
 }  // namespace
 
+HandEyePictures all_of(const std::vector<HandEyePicture>& pictures) {
+  HandEyePictures all;
+  for (const HandEyePicture& p : pictures) all.push_back(&p);
+  return all;
+}
+
 std::vector<std::pair<std::string, Rigid<Endoscope, CameraCv>>> closed_forms(
     const HandEyePictures& pictures) {
   std::vector<cv::Mat> base_turns, base_shifts, board_turns, board_shifts;

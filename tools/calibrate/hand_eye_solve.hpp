@@ -11,13 +11,15 @@
 
 namespace linescope::calibrate {
 
+/// Some of the pictures, which somebody else holds.
 using HandEyePictures = std::vector<const HandEyePicture*>;
+HandEyePictures all_of(const std::vector<HandEyePicture>& pictures);
 
 struct HandEyeSolution {
   Rigid<Endoscope, CameraCv> endoscope_from_camera;
   Rigid<Base, Board> base_from_board;
   double scale = 1;            ///< tracker's millimetres per millimetre of the board
-  double scale_deviation = 0;  ///<
+  double scale_deviation = 0;  ///< standard deviation; 0: the scale was not fitted
   Eigen::Matrix<double, 6, 6>
       covariance;  ///< of endoscope_from_camera: rotation vector (rad), translation (mm)
   double tracker_noise_mm = 0, tracker_noise_rad = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquire/tracker/pose_mean.hpp"
 #include "common/units.hpp"
 #include "tools/calibrate/turn_correlation.hpp"
 #include "tools/calibrate/verdict.hpp"
@@ -12,34 +13,34 @@
 namespace linescope::calibrate {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 struct FirstSensor {};
 struct SecondSensor {};
 
-/// Sums over the samples of one place; attitudes are added as quaternions of one half sphere.
-struct Place {
-  Vector3d seed, at = Vector3d::Zero(), lever = Vector3d::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-  std::size_t samples = 0;
+using Pair = Rigid<FirstSensor, SecondSensor>;
+using PairMean = PoseMean<FirstSensor, SecondSensor>;
 
-  void add(const Vector3d& where, const Rigid<FirstSensor, SecondSensor>& pair) {
-    const Eigen::Vector4d q = pair.rotation().coeffs();
-    at += where, lever += pair.translation(), turn += turn.dot(q) < 0 ? Eigen::Vector4d(-q) : q;
-    ++samples;
+/// What was seen at one place.
+struct Place {
+  Vector3d seed, sum = Vector3d::Zero();
+  PairMean pair;
+
+  explicit Place(const Vector3d& first) : seed(first) {}
+  void add(const Vector3d& where, const Pair& seen) {
+    sum += where;
+    pair.add(seen);
   }
-  Vector3d mean(const Vector3d& sum) const { return sum / static_cast<double>(samples); }
-  Quaterniond attitude() const { return Quaterniond(Eigen::Vector4d(turn.normalized())); }
+  std::size_t samples() const { return static_cast<std::size_t>(pair.count()); }
+  Vector3d at() const { return sum / static_cast<double>(samples()); }
 };
 
-void add_sample(std::vector<Place>& places, double spacing, const Vector3d& where,
-                const Rigid<FirstSensor, SecondSensor>& pair) {
+void add_sample(std::vector<Place>& places, double spacing, const Vector3d& where, const Pair& pair) {
   const auto from = [&](const Place& p) { return (p.seed - where).norm(); };
   const auto nearest = std::min_element(places.begin(), places.end(),
                                         [&](const Place& a, const Place& b) { return from(a) < from(b); });
   if (nearest == places.end() || from(*nearest) >= spacing) {
-    places.push_back({.seed = where});
+    places.emplace_back(where);
     places.back().add(where, pair);
   } else {
     nearest->add(where, pair);
@@ -48,25 +49,21 @@ void add_sample(std::vector<Place>& places, double spacing, const Vector3d& wher
 
 /// Every place against the mean of all, each place alike however long the pair was held there.
 void compare(PairCheck& check, const std::vector<Place>& places) {
-  Vector3d lever = Vector3d::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
+  PairMean of_all;
+  for (const Place& p : places) of_all.add(p.pair.value());
+  const Pair mean = of_all.value();
   const auto n = static_cast<double>(places.size());
+  check.distance_mm = mean.translation().norm();
   for (const Place& p : places) {
-    const Eigen::Vector4d q = p.attitude().coeffs();
-    lever += p.mean(p.lever) / n;
-    turn += turn.dot(q) < 0 ? Eigen::Vector4d(-q) : q;
-  }
-  const Quaterniond attitude(Eigen::Vector4d(turn.normalized()));
-  check.distance_mm = lever.norm();
-  for (const Place& p : places) {
-    const double mm = (p.mean(p.lever) - lever).norm();
-    const double deg = degrees_from_radians(attitude.angularDistance(p.attitude()));
-    check.places.push_back({p.mean(p.at), mm, deg, p.samples});
+    const Pair here = p.pair.value();
+    const double mm = (here.translation() - mean.translation()).norm();
+    const double deg = degrees_from_radians(mean.rotation().angularDistance(here.rotation()));
+    check.places.push_back({p.at(), mm, deg, p.samples()});
     check.rms_mm += mm * mm / n, check.rms_deg += deg * deg / n;
     check.worst_mm = std::max(check.worst_mm, mm), check.worst_deg = std::max(check.worst_deg, deg);
     for (const Place& other : places)
-      check.extent_mm = std::max(check.extent_mm, (p.mean(p.at) - other.mean(other.at)).norm());
-    check.used += p.samples;
+      check.extent_mm = std::max(check.extent_mm, (p.at() - other.at()).norm());
+    check.used += p.samples();
   }
   check.rms_mm = std::sqrt(check.rms_mm), check.rms_deg = std::sqrt(check.rms_deg);
 }
@@ -104,7 +101,7 @@ Result<PairCheck> check_pair(const std::vector<PoseSample>& first, const std::ve
     return tl::unexpected(refusal(Refusal::too_few,
                                   fmt::format("metal test: {} samples in which both sensors are good", both),
                                   "Keep both sensors connected and within the tracker's range"));
-  std::erase_if(places, [&](const Place& p) { return p.samples < least; });
+  std::erase_if(places, [&](const Place& p) { return p.samples() < least; });
   if (places.size() < static_cast<std::size_t>(options.least_places))
     return tl::unexpected(
         refusal(Refusal::too_little_variation,

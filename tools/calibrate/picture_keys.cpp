@@ -18,16 +18,9 @@ CollectOptions PictureKeys::wants(const BoardOptions& board) const {
 }
 
 void LineKeys::declare(ConfigSchema& schema, const std::string& section) {
-  schema.choice(section + ".colour", line.colour,
-                {{"green", LaserColour::green},
-                 {"red", LaserColour::red},
-                 {"blue", LaserColour::blue},
-                 {"cyan", LaserColour::cyan},
-                 {"violet", LaserColour::violet},
-                 {"yellow", LaserColour::yellow},
-                 {"mono", LaserColour::mono}},
+  schema.choice(section + ".colour", line.colour, kLaserColourWords,
                 "Colour of the laser; mono: the picture has none.");
-  schema.choice(section + ".axis", line.axis, {{"column", ProfileAxis::column}, {"row", ProfileAxis::row}},
+  schema.choice(section + ".axis", line.axis, kProfileAxisWords,
                 "column: the line runs from left to right; row: from top to bottom.");
 }
 

@@ -18,6 +18,14 @@ inline double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// The value that 98 of 100 do not exceed: what a scale has to hold when a few outliers shall not take all of
+/// it. Precondition: not empty.
+inline double high_value(std::vector<double> values) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 98 / 100);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 /// Standard deviation of an estimate, from the estimates value(0), value(1), ... that each lack one group of
 /// the data (jackknife). Nothing is known of a single one.
 template <class Value>

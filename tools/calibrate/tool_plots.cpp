@@ -8,6 +8,7 @@
 #include "common/units.hpp"
 #include "tools/calibrate/chart.hpp"
 #include "tools/calibrate/hand_eye_solve.hpp"
+#include "tools/calibrate/sample_statistics.hpp"
 #include "tools/calibrate/turn_correlation.hpp"
 
 namespace linescope::calibrate {
@@ -63,14 +64,6 @@ double highest(const std::vector<double>& values) {
   return values.empty() ? 1 : std::max(1e-9, *std::max_element(values.begin(), values.end()));
 }
 
-/// Nine tenths of the values lie below; a few outliers shall not take all colours.
-double high_value(std::vector<double> values) {
-  if (values.empty()) return 1;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 98 / 100);
-  std::nth_element(values.begin(), at, values.end());
-  return std::max(1e-9, *at);
-}
-
 double spin_deg(const Eigen::Quaterniond& turn, const Vector3d& axis) {
   return std::remainder(2 * degrees_from_radians(std::atan2(turn.vec().dot(axis), turn.w())), 360);
 }
@@ -87,7 +80,8 @@ Plot plot_pivot(const ToolPoses& poses, const PivotFit& fit, const Vector3d& tip
               .across = "tilt to one side (deg)",
               .up = "tilt across it (deg)"};
   swing.series = {{.name = "", .points = tilts_of(directions), .values = fit.error}};
-  swing.scale = ColourScale{"tip from divot (mm)", 0, high_value(fit.error)};
+  swing.scale =
+      ColourScale{"tip from divot (mm)", 0, fit.error.empty() ? 1 : std::max(1e-9, high_value(fit.error))};
   swing.same_scale = true;
   swing.height = 480;
   Chart time =
@@ -250,8 +244,7 @@ Plot plot_latency(const LatencyFit& fit, const std::vector<PoseSample>& poses) {
 
 Plot plot_hand_eye(const HandEyeFit& fit, const BoardOptions& board,
                    const Rigid<Endoscope, CameraCv>& before) {
-  HandEyePictures pictures;
-  for (const HandEyePicture& p : fit.pictures) pictures.push_back(&p);
+  const HandEyePictures pictures = all_of(fit.pictures);
   HandEyeSolution old, found;
   old.endoscope_from_camera = before;
   old.base_from_board = mean_board(pictures, before);

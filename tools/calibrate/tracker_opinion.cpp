@@ -28,14 +28,11 @@ double scaled_error(const HandEyePictures& pictures, const HandEyeSolution& solu
     scaled.back().camera_from_board = {p->camera_from_board.rotation(),
                                        solution.scale * p->camera_from_board.translation()};
   }
-  HandEyePictures pointers;
-  for (const HandEyePicture& p : scaled) pointers.push_back(&p);
-  return chain_error(pointers, solution, board);
+  return chain_error(all_of(scaled), solution, board);
 }
 
 std::optional<Chain> chain_of(const std::vector<HandEyePicture>& pictures, const BoardOptions& board) {
-  HandEyePictures all;
-  for (const HandEyePicture& p : pictures) all.push_back(&p);
+  const HandEyePictures all = all_of(pictures);
   const auto start = best_closed_form(all, board);
   if (!start) return std::nullopt;
   Chain chain{refine(all, *start, corner_noise_px(all), true), 0};
@@ -51,9 +48,7 @@ std::string why_not(const std::vector<HandEyePicture>& pictures, const BoardOpti
   if (looks_alike_turned(board)) return "the board looks the same when it is turned";
   if (static_cast<int>(pictures.size()) < options.min_pictures)
     return fmt::format("{} pictures have a pose, {} are needed", pictures.size(), options.min_pictures);
-  HandEyePictures all;
-  for (const HandEyePicture& p : pictures) all.push_back(&p);
-  const double turn = degrees_from_radians(second_turn(all));
+  const double turn = degrees_from_radians(second_turn(all_of(pictures)));
   if (turn < options.min_rotation_deg)
     return fmt::format("the endoscope was turned by {:.1f} degrees about a second axis, {:g} are needed",
                        turn, options.min_rotation_deg);

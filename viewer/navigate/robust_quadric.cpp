@@ -6,6 +6,8 @@
 #include <bitset>
 #include <cmath>
 
+#include "viewer/navigate/processor.hpp"
+
 namespace linescope {
 namespace {
 
@@ -95,8 +97,7 @@ struct Kernels {
 
 Kernels kernels(bool allow_simd) {
 #ifdef LINESCOPE_QUADRIC_AVX2
-  static const bool simd = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (simd && allow_simd) return {accumulate_avx2, residuals_avx2};
+  if (allow_simd && has_avx2_and_fma()) return {accumulate_avx2, residuals_avx2};
 #endif
   (void)allow_simd;
   return {};

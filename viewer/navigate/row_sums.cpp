@@ -1,5 +1,7 @@
 #include "viewer/navigate/row_sums.hpp"
 
+#include "viewer/navigate/processor.hpp"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define LINESCOPE_ROW_SUMS_AVX2 1
 #endif
@@ -39,11 +41,6 @@ __attribute__((target("avx2,fma"))) void add_curved_rows_avx2(const FitRow* rows
   add_block<1, 3, 8>(rows, weights, count, sums);
   add_block<2, 3, 11>(rows, weights, count, sums);
 }
-
-bool has_avx2() {
-  static const bool yes = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return yes;
-}
 #endif
 
 void add_from(int first, const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
@@ -64,14 +61,14 @@ void add_curved_rows_portable(const FitRow* rows, const double* weights, std::si
 
 void add_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
 #ifdef LINESCOPE_ROW_SUMS_AVX2
-  if (has_avx2()) return add_rows_avx2(rows, weights, count, sums);
+  if (has_avx2_and_fma()) return add_rows_avx2(rows, weights, count, sums);
 #endif
   add_rows_portable(rows, weights, count, sums);
 }
 
 void add_curved_rows(const FitRow* rows, const double* weights, std::size_t count, RowSums& sums) {
 #ifdef LINESCOPE_ROW_SUMS_AVX2
-  if (has_avx2()) return add_curved_rows_avx2(rows, weights, count, sums);
+  if (has_avx2_and_fma()) return add_curved_rows_avx2(rows, weights, count, sums);
 #endif
   add_curved_rows_portable(rows, weights, count, sums);
 }

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "viewer/navigate/processor.hpp"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define LINESCOPE_TRIANGLE_BATCH_AVX2 1
 #endif
@@ -92,11 +94,6 @@ __attribute__((target("avx2,fma"))) int nearer_lane_avx2(const TriangleBatch& ba
                                                          const Eigen::Vector3f& place, float& best) {
   return nearer_of(batch, place, best);
 }
-
-bool has_avx2() {
-  static const bool yes = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return yes;
-}
 #endif
 
 }  // namespace
@@ -136,7 +133,7 @@ int nearer_lane_portable(const TriangleBatch& batch, const Eigen::Vector3f& plac
 
 int nearer_lane(const TriangleBatch& batch, const Eigen::Vector3f& place, float& best) {
 #ifdef LINESCOPE_TRIANGLE_BATCH_AVX2
-  if (has_avx2()) return nearer_lane_avx2(batch, place, best);
+  if (has_avx2_and_fma()) return nearer_lane_avx2(batch, place, best);
 #endif
   return nearer_lane_portable(batch, place, best);
 }

@@ -29,14 +29,18 @@ Eigen::Vector3f nearest_on(const Eigen::Vector3f& a, const Eigen::Vector3f& ab, 
   return a + vb * whole * ab + vc * whole * ac;
 }
 
+}  // namespace
+
 /// Squared distance from a place to cells around the one it lies in.
-class Gaps {
+class TriangleLocator::Gaps {
  public:
-  Gaps(const CellGrid& grid, const CellIndex& home, const Eigen::Vector3f& place)
-      : home_(home),
+  Gaps(const CellGrid& grid, const Eigen::Vector3f& place)
+      : home_(grid.cell_of(place.cast<double>())),
         size_(static_cast<float>(grid.cell_size())),
         half_(size_ / 2),
-        from_centre_((place.cast<double>() - grid.centre_of(home)).cast<float>()) {}
+        from_centre_((place.cast<double>() - grid.centre_of(home_)).cast<float>()) {}
+
+  const CellIndex& home() const { return home_; }
 
   float squared(const CellIndex& cell) const {
     const CellIndex steps = cell - home_;
@@ -58,8 +62,6 @@ class Gaps {
   float size_, half_;
   Eigen::Vector3f from_centre_;
 };
-
-}  // namespace
 
 void TriangleLocator::assign(const TriangleMesh& mesh) {
   clear();
@@ -153,20 +155,19 @@ void TriangleLocator::look_into(std::int32_t cell, const Eigen::Vector3f& place,
 }
 
 /// The cell of the place and its 26 neighbours, the nearest first: most are then too far to be looked into.
-void TriangleLocator::look_next_door(const CellIndex& home, const Eigen::Vector3f& place, Best& best) const {
+void TriangleLocator::look_next_door(const Gaps& gaps, const Eigen::Vector3f& place, Best& best) const {
   struct Door {
     float gap;
     std::int32_t cell;
   };
   std::array<Door, 27> doors;
   std::size_t count = 0;
-  const Gaps gaps(grid_, home, place);
   std::array<std::array<float, 3>, 3> along;  // axis by axis: before, at home, behind
   for (int axis = 0; axis < 3; ++axis)
     for (int step = -1; step <= 1; ++step)
       along[static_cast<std::size_t>(axis)][static_cast<std::size_t>(step + 1)] = gaps.squared(axis, step);
-  const CellIndex low = home - CellIndex::Ones();
-  grid_.visit_box(low, home + CellIndex::Ones(), [&](std::int32_t cell, const CellIndex& c) {
+  const CellIndex low = gaps.home() - CellIndex::Ones();
+  grid_.visit_box(low, gaps.home() + CellIndex::Ones(), [&](std::int32_t cell, const CellIndex& c) {
     const auto step = [&](int axis) { return static_cast<std::size_t>(c[axis] - low[axis]); };
     doors[count++] = {along[0][step(0)] + along[1][step(1)] + along[2][step(2)], cell};
   });
@@ -181,9 +182,9 @@ void TriangleLocator::look_next_door(const CellIndex& home, const Eigen::Vector3
 }
 
 /// The rings after `from` up to `to`.
-void TriangleLocator::look_farther(const CellIndex& home, int from, int to, const Eigen::Vector3f& place,
+void TriangleLocator::look_farther(const Gaps& gaps, int from, int to, const Eigen::Vector3f& place,
                                    Best& best) const {
-  const Gaps gaps(grid_, home, place);
+  const CellIndex& home = gaps.home();
   const CellIndex r = CellIndex::Constant(to);
   grid_.visit_box(home - r, home + r, [&](std::int32_t cell, const CellIndex& c) {
     if ((c - home).cwiseAbs().maxCoeff() > from && gaps.squared(c) < best.squared)
@@ -195,12 +196,11 @@ std::optional<TriangleLocator::Nearest> TriangleLocator::nearest(const Eigen::Ve
                                                                  float reach) const {
   if (size_ == 0 || !place.allFinite() || !grid_.holds(place.cast<double>())) return std::nullopt;
   Best best{reach * reach};
-  const CellIndex home = grid_.cell_of(place.cast<double>());
-  const Gaps gaps(grid_, home, place);
-  look_next_door(home, place, best);
+  const Gaps gaps(grid_, place);
+  look_next_door(gaps, place, best);
   for (int ring = 1; gaps.certain(ring) < reach; ring *= 2) {
     if (best.squared <= gaps.certain(ring) * gaps.certain(ring)) break;
-    look_farther(home, ring, 2 * ring, place, best);
+    look_farther(gaps, ring, 2 * ring, place, best);
   }
   if (best.triangle == TriangleBatch::kNone) return std::nullopt;
   const Stored& t = triangles_[static_cast<std::size_t>(best.triangle)];

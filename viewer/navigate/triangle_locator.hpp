@@ -54,6 +54,7 @@ class TriangleLocator {
     std::uint64_t owner = 0;
   };
   using Cell = std::vector<TriangleBatch>;
+  class Gaps;
   struct Best {
     float squared;
     std::int32_t triangle = TriangleBatch::kNone;
@@ -64,8 +65,8 @@ class TriangleLocator {
   template <class Visit>
   void visit_cells_of(const Stored& triangle, Visit&& visit);
   void look_into(std::int32_t cell, const Eigen::Vector3f& place, Best& best) const;
-  void look_next_door(const CellIndex& home, const Eigen::Vector3f& place, Best& best) const;
-  void look_farther(const CellIndex& home, int from, int to, const Eigen::Vector3f& place, Best& best) const;
+  void look_next_door(const Gaps& gaps, const Eigen::Vector3f& place, Best& best) const;
+  void look_farther(const Gaps& gaps, int from, int to, const Eigen::Vector3f& place, Best& best) const;
 
   CellGrid grid_;
   std::vector<Cell> cells_;
