@@ -94,6 +94,7 @@ QJsonObject MainWindow::displayed_state() const {
       {"points_drawn", number(scene.cloud().drawn())},
       {"triangles", number(scene.surface().triangles())},
       {"grid_points", number(scene.surface().grid_points())},
+      {"surface_visible", scene.surface().visible()},
       {"surface_version", number(state_.surface->version)},
       {"surface_method", QString::fromStdString(state_.surface->method)},
       {"surface_interval_mm", state_.surface->interval},

@@ -24,6 +24,7 @@ class SurfaceLayer {
 
   void set(const SurfaceView& view);
   void show(SurfaceStyle style);
+  bool visible() const { return actor_->GetVisibility() != 0; }
   void show_grid(bool visible);
   /// Shading by the mesh's vertex normals (thesis Fig 4.11) or flat by triangle.
   void use_normals(bool smooth);

@@ -1,13 +1,19 @@
 // The scene's parts that can be checked without drawing.
 #include <gtest/gtest.h>
 #include <vtkNew.h>
+#include <vtkPropCollection.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "viewer/scene/cloud_layer.hpp"
 #include "viewer/scene/colour_scale.hpp"
@@ -215,6 +221,40 @@ TEST(ColourScale, BrightnessOnlyRises) {
     EXPECT_GE(brightness(i), brightness(i - 1)) << i;
   for (vtkIdType i = 4; i < table->GetNumberOfTableValues(); ++i)
     EXPECT_GT(brightness(i), brightness(i - 4)) << i;
+}
+
+/// Where the overlay puts its title, from the left and from the top.
+std::array<double, 2> place_of_title(int dpi, double scale) {
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  window->OffScreenRenderingOn();
+  window->AddRenderer(renderer);
+  window->SetSize(800, 600);
+  window->SetDPI(dpi);
+  ViewOverlay overlay(*renderer);
+  overlay.set_title("the title");
+  overlay.set_scale(scale);
+  overlay.update();
+  vtkPropCollection& props = *renderer->GetViewProps();
+  for (int i = 0; i < props.GetNumberOfItems(); ++i) {
+    auto* text = vtkTextActor::SafeDownCast(props.GetItemAsObject(i));
+    if (text == nullptr || text->GetInput() == nullptr || text->GetInput() != std::string("the title"))
+      continue;
+    return {text->GetPosition()[0], 600 - text->GetPosition()[1]};
+  }
+  ADD_FAILURE() << "no title";
+  return {};
+}
+
+/// 72 dots per inch are VTK's word for a screen without scaling.
+TEST(ViewOverlay, KeepsItsDistancesOnAScreenOfManyPixels) {
+  const auto usual = place_of_title(72, 1), fine = place_of_title(144, 1), large = place_of_title(72, 1.5);
+  EXPECT_GT(usual[0], 5);
+  EXPECT_GT(usual[1], 5);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(fine[i], 2 * usual[i], 1) << i;
+    EXPECT_NEAR(large[i], 1.5 * usual[i], 1) << i;
+  }
 }
 
 TEST(ScaleBar, LengthsAreRound) {

@@ -274,7 +274,9 @@ TEST(HandEyeFit, StatedDeviationsMatchTheSpreadOverHundredSeeds) {
   HandEyeOptions options;
   options.weights = HandEyeWeights::tracker;
   options.outlier_factor = 100;
-  testing::expect_stated_deviations_hold({"x", "z"}, [&](unsigned seed) {
+  const std::vector<std::string> figures{
+      "x", "y", "z", "turn about x", "turn about z", "tracker's mm per board's mm"};
+  testing::expect_stated_deviations_hold(figures, [&](unsigned seed) {
     return testing::quality_in(fit(s, moved_about(s, 100 + seed, 12), options));
   });
 }
