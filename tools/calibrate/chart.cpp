@@ -47,13 +47,21 @@ void write(cv::Mat& m, const std::string& text, int x, int y, double size = 0.42
   cv::putText(m, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
 }
 
-/// Upwards along the left edge, its middle at `y`.
+/// The usual size of letters, or the one at which the text takes `room`.
+double size_within(const std::string& text, int room) {
+  return 0.42 * std::min(1.0, static_cast<double>(room) / size_of(text, 0.42).width);
+}
+
+/// Upwards along an edge, its middle at `y` where that keeps it off the lines above the axes.
 void write_upwards(cv::Mat& m, const std::string& text, int x, int y) {
-  const cv::Size size = size_of(text, 0.42);
+  const int top = kTop - 8, bottom = m.rows - 4;
+  const double letters = size_within(text, bottom - top - 4);
+  const cv::Size size = size_of(text, letters);
   cv::Mat strip(size.height + 8, size.width + 4, CV_8UC3, kWhite);
-  write(strip, text, 2, size.height + 2);
+  write(strip, text, 2, size.height + 2, letters);
   cv::rotate(strip, strip, cv::ROTATE_90_COUNTERCLOCKWISE);
-  const cv::Rect place = cv::Rect(x, y - strip.rows / 2, strip.cols, strip.rows) & cv::Rect({}, m.size());
+  const int highest = std::max(top, std::min(y - strip.rows / 2, bottom - strip.rows));
+  const cv::Rect place = cv::Rect(x, highest, strip.cols, strip.rows) & cv::Rect({}, m.size());
   strip(cv::Rect({}, place.size())).copyTo(m(place));
 }
 
@@ -208,13 +216,18 @@ cv::Mat drawn(const Chart& chart) {
   return Drawing(chart).run();
 }
 
+cv::Mat with_foot(const cv::Mat& drawing) {
+  const std::string text = "linescope-calibrate. Research software. Not for clinical use.";
+  cv::Mat foot(24, drawing.cols, CV_8UC3, kWhite), all;
+  write(foot, text, 8, 15, size_within(text, drawing.cols - 12));
+  cv::vconcat(drawing, foot, all);
+  return all;
+}
+
 cv::Mat page(const std::vector<Chart>& charts) {
   cv::Mat all;
   for (const Chart& chart : charts) all.push_back(drawn(chart));
-  cv::Mat foot(24, kChartWidth, CV_8UC3, kWhite);
-  write(foot, "linescope-calibrate. Research software. Not for clinical use.", 8, 15);
-  all.push_back(foot);
-  return all;
+  return with_foot(all);
 }
 
 }  // namespace linescope::calibrate

@@ -43,6 +43,9 @@ inline constexpr int kChartWidth = 820;  ///< px
 /// 8-bit BGR, kChartWidth wide. Points that are not finite are not drawn; a chart without any says so.
 cv::Mat drawn(const Chart& chart);
 
+/// With a line below that says what software this is and what it is not for, as long as the drawing is wide.
+cv::Mat with_foot(const cv::Mat& drawing);
+
 /// The charts one below the other, with a line that says what software this is and what it is not for.
 cv::Mat page(const std::vector<Chart>& charts);
 

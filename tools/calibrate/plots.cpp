@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tools/calibrate/board_pose.hpp"
+#include "tools/calibrate/chart.hpp"
 
 namespace linescope::calibrate {
 namespace {
@@ -22,12 +23,22 @@ void write(cv::Mat& m, const std::string& text, int x, int y, const cv::Scalar& 
   cv::putText(m, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1, cv::LINE_AA);
 }
 
-/// Room for a line of text below the camera's picture.
-cv::Mat frame_of(const Session& session) {
-  cv::Mat m = sheet_of_paper(session.width, session.height + 24);
-  cv::rectangle(m, {0, 0}, {session.width - 1, session.height - 1}, kPale);
-  return m;
-}
+/// The camera's picture, large enough for the line of text below it.
+struct Frame {
+  explicit Frame(const Session& session)
+      : enlarged((kLeastWidth - 1) / std::max(session.width, 1) + 1),
+        width(enlarged * session.width),
+        height(enlarged * session.height),
+        m(sheet_of_paper(width, height + 24)) {
+    cv::rectangle(m, {0, 0}, {width - 1, height - 1}, kPale);
+  }
+  cv::Point at(double x, double y) const { return {cvRound(enlarged * x), cvRound(enlarged * y)}; }
+  void caption(const std::string& text) { write(m, text, 6, height + 17); }
+
+  static constexpr int kLeastWidth = 480;  // px
+  int enlarged, width, height;             ///< how often; of the camera's picture on paper
+  cv::Mat m;
+};
 
 /// Distinct, fixed colours.
 cv::Scalar colour_of(std::size_t i) {
@@ -49,27 +60,26 @@ double round_up(double value) {
 }  // namespace
 
 cv::Mat plot_coverage(const Session& session) {
-  cv::Mat m = frame_of(session);
+  Frame frame(session);
   for (int x = 1; x < Coverage::kAcross; ++x) {
-    const int at = x * session.width / Coverage::kAcross;
-    cv::line(m, {at, 0}, {at, session.height - 1}, kPale);
+    const int at = x * frame.width / Coverage::kAcross;
+    cv::line(frame.m, {at, 0}, {at, frame.height - 1}, kPale);
   }
   for (int y = 1; y < Coverage::kDown; ++y) {
-    const int at = y * session.height / Coverage::kDown;
-    cv::line(m, {0, at}, {session.width - 1, at}, kPale);
+    const int at = y * frame.height / Coverage::kDown;
+    cv::line(frame.m, {0, at}, {frame.width - 1, at}, kPale);
   }
   for (std::size_t i = 0; i < session.observations.size(); ++i)
     for (const cv::Point2f& p : session.observations[i].board.pixels)
-      cv::circle(m, {cvRound(p.x), cvRound(p.y)}, 2, colour_of(i), cv::FILLED, cv::LINE_AA);
+      cv::circle(frame.m, frame.at(p.x, p.y), 2, colour_of(i), cv::FILLED, cv::LINE_AA);
   const Coverage c = coverage_of(session);
-  write(m, fmt::format("{} pictures, {:.0f} % of the cells", c.pictures, 100 * c.cells), 6,
-        session.height + 17);
-  return m;
+  frame.caption(fmt::format("{} pictures, {:.0f} % of the cells", c.pictures, 100 * c.cells));
+  return with_foot(frame.m);
 }
 
 cv::Mat plot_corner_errors(const Session& session, const BoardOptions& board, const CameraModel& camera,
                            const CameraFit& fit) {
-  cv::Mat m = frame_of(session);
+  Frame frame(session);
   std::vector<std::pair<cv::Point2f, Eigen::Vector2d>> arrows;
   double squares = 0;
   for (const std::size_t i : fit.used) {
@@ -85,14 +95,14 @@ cv::Mat plot_corner_errors(const Session& session, const BoardOptions& board, co
   const double rms = arrows.empty() ? 0 : std::sqrt(squares / static_cast<double>(arrows.size()));
   const double scale = std::clamp(10 / std::max(rms, 1e-3), 1.0, 1000.0);
   for (const auto& [at, error] : arrows) {
-    const cv::Point from(cvRound(at.x), cvRound(at.y));
-    cv::line(m, from, {cvRound(at.x + scale * error.x()), cvRound(at.y + scale * error.y())}, kBlue, 1,
-             cv::LINE_AA);
-    cv::circle(m, from, 1, kInk, cv::FILLED);
+    const cv::Point from = frame.at(at.x, at.y);
+    const cv::Point to = frame.at(at.x + scale * error.x(), at.y + scale * error.y());
+    cv::line(frame.m, from, to, kBlue, 1, cv::LINE_AA);
+    cv::circle(frame.m, from, 1, kInk, cv::FILLED);
   }
-  write(m, fmt::format("{} corners, RMS {:.3f} px; drawn {:.0f} times as long", arrows.size(), rms, scale), 6,
-        session.height + 17);
-  return m;
+  frame.caption(
+      fmt::format("{} corners, RMS {:.3f} px; drawn {:.0f} times as long", arrows.size(), rms, scale));
+  return with_foot(frame.m);
 }
 
 cv::Mat plot_laser_errors(const std::vector<LaserPicture>& pictures, const Sheet& sheet) {
@@ -105,7 +115,7 @@ cv::Mat plot_laser_errors(const std::vector<LaserPicture>& pictures, const Sheet
       const double d = sheet.distance(point);
       if (std::isfinite(d)) squares += d * d, ++count;
     }
-  if (count == 0) return m;
+  if (count == 0) return with_foot(m);
   const double rms = std::sqrt(squares / count), reach = round_up(3 * rms);
   const auto across = [&](double z) {
     return left + cvRound((z - least) / std::max(most - least, 1e-9) * (width - left - 15));
@@ -125,7 +135,7 @@ cv::Mat plot_laser_errors(const std::vector<LaserPicture>& pictures, const Sheet
         fmt::format("distance from the surface over depth, {:.1f} to {:.1f} mm; RMS {:.3f} mm", least, most,
                     rms),
         left, height - 10);
-  return m;
+  return with_foot(m);
 }
 
 cv::Mat plot_items(const Quality& quality) {
@@ -143,7 +153,7 @@ cv::Mat plot_items(const Quality& quality) {
     y += row;
   }
   write(m, fmt::format("per picture, {}; red: left out", quality.unit), left, y + 15);
-  return m;
+  return with_foot(m);
 }
 
 }  // namespace linescope::calibrate

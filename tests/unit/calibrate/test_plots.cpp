@@ -78,6 +78,28 @@ TEST(Chart, NothingToShowIsNoFailure) {
   EXPECT_GT(page({chart, chart}).rows, 2 * chart.height);
 }
 
+bool white(const cv::Mat& part) {
+  cv::Mat ink;
+  cv::inRange(part, cv::Scalar::all(0), cv::Scalar::all(200), ink);
+  return cv::countNonZero(ink) == 0;
+}
+
+TEST(Chart, ALabelLongerThanItsAxisLeavesTheLinesAboveFree) {
+  Chart chart{.across = "x", .up = "a label that is a great deal longer than its axis is high"};
+  chart.series = {{.name = "", .points = {{0, 0}, {1, 1}}}};
+  chart.height = 180;
+  EXPECT_TRUE(white(drawn(chart).rowRange(0, 42)));
+}
+
+TEST(Chart, EveryDrawingSaysWhatItIsNotForHoweverNarrow) {
+  for (const int width : {160, 320, 820}) {
+    const cv::Mat signed_one = with_foot(cv::Mat(50, width, CV_8UC3, cv::Scalar::all(255)));
+    ASSERT_EQ(signed_one.size(), cv::Size(width, 74));
+    EXPECT_FALSE(white(signed_one.rowRange(50, 74))) << width;
+    EXPECT_TRUE(white(signed_one.colRange(width - 2, width))) << width << ": cut off";
+  }
+}
+
 Session session_of(const ToolPoses& poses) {
   Session session;
   for (const TimedToolPose& pose : poses) {
