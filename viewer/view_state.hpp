@@ -14,6 +14,7 @@
 #include "common/status.hpp"
 #include "common/surface_point.hpp"
 #include "common/time.hpp"
+#include "viewer/surface/hole_filler.hpp"
 #include "viewer/surface/triangle_mesh.hpp"
 
 namespace linescope {
@@ -171,6 +172,7 @@ struct SurfaceView {
   std::uint64_t points = 0;
   std::uint64_t points_refused = 0;
   std::size_t filled = 0;  ///< triangles that close holes
+  HoleCounts holes;        ///< where closing them is asked for
   double area = 0;         ///< of all triangles, mm^2
   double seen_area = 0;    ///< of those that face the camera: a closed skin has a back nobody scanned
   Nanoseconds took = 0;    ///< to bring it up to date

@@ -30,6 +30,18 @@ std::string size_of(const SurfaceView& s) {
                      grouped(s.grid ? s.grid->size() : 0));
 }
 
+/// Each hole that is left open, with its reason.
+std::string holes_in(const HoleCounts& h) {
+  std::string open;
+  const auto add = [&](std::size_t count, const char* why) {
+    if (count > 0) open += fmt::format("{}{} {}", open.empty() ? ": " : ", ", grouped(count), why);
+  };
+  add(h.too_long, "with too long a rim");
+  add(h.too_many, "with too many corners");
+  add(h.crossing, "whose rim crosses itself");
+  return fmt::format("{} closed, {} open{}", grouped(h.filled), grouped(h.left), open);
+}
+
 }  // namespace
 
 SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* parent)
@@ -41,6 +53,7 @@ SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* par
   made_of_ = add_row("Made of");
   size_ = add_row("Size");
   area_ = add_row("Area");
+  open_ = add_row("Holes");
   drawn_ = add_row("Drawn");
   measured_ = add_row("Distance");
   clear_measurement();
@@ -197,6 +210,9 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
                   s.points_refused > 0 ? fmt::format(" ({} refused)", grouped(s.points_refused)) : "")));
   const bool any = s.mesh && !s.mesh->empty();
   size_->set_text(any ? QString::fromStdString(size_of(s)) : QStringLiteral("– –  no surface yet"));
+  const bool asked = options_.method == MeshMethod::implicit && options_.fill_holes_up_to > 0;
+  open_->set_text(any && asked ? QString::fromStdString(holes_in(s.holes))
+                               : QStringLiteral("left as they are"));
   area_->set_text(
       any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
           : QStringLiteral("– –"));

@@ -161,6 +161,25 @@ TEST_F(Panels, HowTheSurfaceIsMadeAndShownIsChosenWithMouseAndKeys) {
   }
 }
 
+TEST_F(Panels, HolesThatStayOpenAreSaidWithTheirReason) {
+  Surface told;
+  SurfacePage page(told.hooks(), {}, nullptr);
+  page.show();
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh->triangles = {{0, 1, 2}};
+  auto surface = std::make_shared<SurfaceView>();
+  surface->mesh = mesh;
+  surface->holes = {.filled = 2, .left = 4, .too_long = 3, .too_many = 0, .crossing = 1};
+  ViewState state;
+  state.surface = surface;
+  page.show_state(state, "");
+  EXPECT_EQ(page.holes(), "left as they are") << "nobody asked for closing them";
+  page.toggle_holes();
+  page.show_state(state, "");
+  EXPECT_EQ(page.holes(), "2 closed, 4 open: 3 with too long a rim, 1 whose rim crosses itself");
+}
+
 TEST_F(Panels, TheEvaluationTakesShapeNominalValueAndRegion) {
   Surface told;
   EvaluationBox box(told.hooks().evaluation, nullptr);
