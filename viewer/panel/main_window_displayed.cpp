@@ -104,7 +104,7 @@ QJsonObject MainWindow::displayed_state() const {
       {"harvester_ghosted", scene.guidance().harvester_ghosted()},
       {"wanted_interval_mm", surface_page_->options().interval},
       {"closing_holes_mm", surface_page_->options().fill_holes_up_to},
-      {"holes", surface_page_->holes()},
+      {"surface_size", surface_page_->size_text()},
       {"filled_triangles", number(scene.surface().filled_triangles())},
       {"view_area", json(QRect(views_->mapTo(this, QPoint()), views_->size()))},
       {"buttons", places(*top_, *this)},

@@ -24,12 +24,6 @@ constexpr double kLargestRim = 20;  // mm: a hole some 6 mm across
 constexpr ColourBy kColours[] = {ColourBy::plain, ColourBy::height, ColourBy::uncertainty, ColourBy::age,
                                  ColourBy::coverage};
 
-std::string size_of(const SurfaceView& s) {
-  return fmt::format("{} triangles{}, {} grid points", grouped(s.mesh->triangle_count()),
-                     s.filled > 0 ? fmt::format(" ({} close holes)", grouped(s.filled)) : "",
-                     grouped(s.grid ? s.grid->size() : 0));
-}
-
 /// Each hole that is left open, with its reason.
 std::string holes_in(const HoleCounts& h) {
   std::string open;
@@ -39,7 +33,15 @@ std::string holes_in(const HoleCounts& h) {
   add(h.too_long, "with too long a rim");
   add(h.too_many, "with too many corners");
   add(h.crossing, "whose rim crosses itself");
-  return fmt::format("{} closed, {} open{}", grouped(h.filled), grouped(h.left), open);
+  return fmt::format("{} holes closed, {} open{}", grouped(h.filled), grouped(h.left), open);
+}
+
+/// In one row: the page has no room for another on a small screen.
+std::string size_of(const SurfaceView& s, bool closes_holes) {
+  const std::string triangles = fmt::format("{} triangles", grouped(s.mesh->triangle_count()));
+  if (closes_holes) return triangles + " · " + holes_in(s.holes);
+  const std::string filled = s.filled > 0 ? fmt::format(" ({} close holes)", grouped(s.filled)) : "";
+  return fmt::format("{}{}, {} grid points", triangles, filled, grouped(s.grid ? s.grid->size() : 0));
 }
 
 }  // namespace
@@ -53,7 +55,6 @@ SurfacePage::SurfacePage(Hooks hooks, const MesherOptions& options, QWidget* par
   made_of_ = add_row("Made of");
   size_ = add_row("Size");
   area_ = add_row("Area");
-  open_ = add_row("Holes");
   drawn_ = add_row("Drawn");
   measured_ = add_row("Distance");
   clear_measurement();
@@ -209,10 +210,9 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
       fmt::format("{} points, {} lines{}", grouped(s.points), grouped(s.lines),
                   s.points_refused > 0 ? fmt::format(" ({} refused)", grouped(s.points_refused)) : "")));
   const bool any = s.mesh && !s.mesh->empty();
-  size_->set_text(any ? QString::fromStdString(size_of(s)) : QStringLiteral("– –  no surface yet"));
-  const bool asked = options_.method == MeshMethod::implicit && options_.fill_holes_up_to > 0;
-  open_->set_text(any && asked ? QString::fromStdString(holes_in(s.holes))
-                               : QStringLiteral("left as they are"));
+  const bool closes_holes = options_.method == MeshMethod::implicit && options_.fill_holes_up_to > 0;
+  size_->set_text(any ? QString::fromStdString(size_of(s, closes_holes))
+                      : QStringLiteral("– –  no surface yet"));
   area_->set_text(
       any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
           : QStringLiteral("– –"));

@@ -48,7 +48,7 @@ class SurfacePage : public SidePage {
   EvaluationBox& evaluation() { return *evaluation_; }
   const EvaluationBox& evaluation() const { return *evaluation_; }
   QString measurement() const { return measured_->text(); }
-  QString holes() const { return open_->text(); }
+  QString size_text() const { return size_->text(); }
   Shown shown() const { return shown_; }
   const MesherOptions& options() const { return options_; }
 
@@ -66,7 +66,7 @@ class SurfacePage : public SidePage {
   QComboBox *method_, *colour_;
   QDoubleSpinBox* interval_;
   QCheckBox *normals_, *holes_;
-  ElidedLabel *made_of_, *size_, *area_, *open_, *drawn_, *measured_;
+  ElidedLabel *made_of_, *size_, *area_, *drawn_, *measured_;
   EvaluationBox* evaluation_;
 };
 

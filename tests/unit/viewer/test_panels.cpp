@@ -174,10 +174,11 @@ TEST_F(Panels, HolesThatStayOpenAreSaidWithTheirReason) {
   ViewState state;
   state.surface = surface;
   page.show_state(state, "");
-  EXPECT_EQ(page.holes(), "left as they are") << "nobody asked for closing them";
+  EXPECT_EQ(page.size_text(), "1 triangles, 0 grid points") << "nobody asked for closing holes";
   page.toggle_holes();
   page.show_state(state, "");
-  EXPECT_EQ(page.holes(), "2 closed, 4 open: 3 with too long a rim, 1 whose rim crosses itself");
+  EXPECT_EQ(page.size_text(),
+            "1 triangles · 2 holes closed, 4 open: 3 with too long a rim, 1 whose rim crosses itself");
 }
 
 TEST_F(Panels, TheEvaluationTakesShapeNominalValueAndRegion) {
