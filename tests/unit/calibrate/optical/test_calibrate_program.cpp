@@ -1,7 +1,9 @@
 // linescope-calibrate as a person and a script run it, with a living daemon of the twin.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "common/calibration.hpp"
@@ -67,6 +69,9 @@ TEST(CalibrateProgram, CalibratesTheCameraOfALivingDaemonAndDraws) {
   EXPECT_EQ(refused.code, 9);
   EXPECT_THAT(refused.err, HasSubstr("too few"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "d.yaml"));
+  daemon.send(SIGTERM);
+  EXPECT_TRUE(daemon.wait(std::chrono::seconds(20)));
+  EXPECT_TRUE(testing::leftovers(segment).empty());
 }
 
 }  // namespace
