@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -171,13 +172,13 @@ struct SurfaceView {
   std::uint64_t lines = 0;    ///< in it
   std::uint64_t points = 0;
   std::uint64_t points_refused = 0;
-  std::size_t filled = 0;  ///< triangles that close holes
-  HoleCounts holes;        ///< where closing them is asked for
-  double area = 0;         ///< of all triangles, mm^2
-  double seen_area = 0;    ///< of those that face the camera: a closed skin has a back nobody scanned
-  Nanoseconds took = 0;    ///< to bring it up to date
-  bool busy = false;       ///< lines are waiting or a mesh is being made
-  std::string fault;       ///< options that cannot be
+  std::size_t filled = 0;           ///< triangles that close holes
+  std::optional<HoleCounts> holes;  ///< where closing them was asked for when this mesh was made
+  double area = 0;                  ///< of all triangles, mm^2
+  double seen_area = 0;  ///< of those that face the camera: a closed skin has a back nobody scanned
+  Nanoseconds took = 0;  ///< to bring it up to date
+  bool busy = false;     ///< lines are waiting or a mesh is being made
+  std::string fault;     ///< options that cannot be
 };
 
 /// The newest answer to "by how much is the harvester off the normal".

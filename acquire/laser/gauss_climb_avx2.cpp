@@ -1,4 +1,5 @@
 #include "acquire/laser/gauss_climb_body.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -31,7 +32,7 @@ LINESCOPE_AVX2 void climb_avx2(const GaussKernel& kernel, float noise, GaussBatc
 
 const GaussClimber& fastest_gauss_climber() {
   static constexpr GaussClimber climber{&gather_avx2, &climb_avx2};
-  return __builtin_cpu_supports("avx2") ? climber : plain_gauss_climber();
+  return has_avx2() ? climber : plain_gauss_climber();
 }
 
 }  // namespace linescope

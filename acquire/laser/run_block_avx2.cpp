@@ -1,5 +1,6 @@
 // Sums along eight runs at once: one gather brings the next pixel of each.
 #include "acquire/laser/run_block.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -73,7 +74,7 @@ struct Excess {
 }  // namespace
 
 bool block_sums_known() {
-  return __builtin_cpu_supports("avx2");
+  return has_avx2();
 }
 
 LINESCOPE_AVX2 void mean_sums(const RunBlock& block, const ColourExcess& excess, MeanLevels levels,

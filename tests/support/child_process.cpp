@@ -124,4 +124,8 @@ std::vector<std::string> leftovers(const std::string& segment) {
   return names;
 }
 
+void remove_leftovers(const std::string& segment) {
+  for (const std::string& left : leftovers(segment)) unlink(("/dev/shm/" + left).c_str());
+}
+
 }  // namespace linescope::testing

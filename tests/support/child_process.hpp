@@ -64,4 +64,7 @@ std::string unique_segment();
 /// Names in /dev/shm that begin with `segment`.
 std::vector<std::string> leftovers(const std::string& segment);
 
+/// Removes them: what a killed daemon leaves.
+void remove_leftovers(const std::string& segment);
+
 }  // namespace linescope::testing

@@ -6,7 +6,7 @@
 #include <bitset>
 #include <cmath>
 
-#include "viewer/navigate/processor.hpp"
+#include "common/processor.hpp"
 
 namespace linescope {
 namespace {

@@ -1,6 +1,6 @@
 #include "viewer/navigate/row_sums.hpp"
 
-#include "viewer/navigate/processor.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define LINESCOPE_ROW_SUMS_AVX2 1

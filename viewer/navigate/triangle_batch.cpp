@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "viewer/navigate/processor.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define LINESCOPE_TRIANGLE_BATCH_AVX2 1

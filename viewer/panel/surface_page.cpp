@@ -37,9 +37,9 @@ std::string holes_in(const HoleCounts& h) {
 }
 
 /// In one row: the page has no room for another on a small screen.
-std::string size_of(const SurfaceView& s, bool closes_holes) {
+std::string size_of(const SurfaceView& s) {
   const std::string triangles = fmt::format("{} triangles", grouped(s.mesh->triangle_count()));
-  if (closes_holes) return triangles + " · " + holes_in(s.holes);
+  if (s.holes) return triangles + " · " + holes_in(*s.holes);
   const std::string filled = s.filled > 0 ? fmt::format(" ({} close holes)", grouped(s.filled)) : "";
   return fmt::format("{}{}, {} grid points", triangles, filled, grouped(s.grid ? s.grid->size() : 0));
 }
@@ -210,9 +210,7 @@ void SurfacePage::show_state(const ViewState& state, const std::string& drawn) {
       fmt::format("{} points, {} lines{}", grouped(s.points), grouped(s.lines),
                   s.points_refused > 0 ? fmt::format(" ({} refused)", grouped(s.points_refused)) : "")));
   const bool any = s.mesh && !s.mesh->empty();
-  const bool closes_holes = options_.method == MeshMethod::implicit && options_.fill_holes_up_to > 0;
-  size_->set_text(any ? QString::fromStdString(size_of(s, closes_holes))
-                      : QStringLiteral("– –  no surface yet"));
+  size_->set_text(any ? QString::fromStdString(size_of(s)) : QStringLiteral("– –  no surface yet"));
   area_->set_text(
       any ? QString("%1 mm², %2 mm² of it seen").arg(s.area, 0, 'f', 0).arg(s.seen_area, 0, 'f', 0)
           : QStringLiteral("– –"));

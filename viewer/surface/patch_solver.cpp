@@ -1,5 +1,6 @@
 #include "viewer/surface/patch_solver.hpp"
 
+#include "common/processor.hpp"
 #include "viewer/surface/small_solver.hpp"
 
 #define LINESCOPE_INLINE [[gnu::always_inline]] inline
@@ -87,8 +88,7 @@ FourSolutions solve_patches_portable(const FourPatches& patches, LocalFit fit, d
 
 FourSolutions solve_patches(const FourPatches& patches, LocalFit fit, double unit_variance) {
 #if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (has_avx2) {
+  if (has_avx2()) {
     FourSolutions found;
     solve_avx2(patches, fit, unit_variance, found);
     return found;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/processor.hpp"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -208,8 +210,7 @@ PlacedBounds place_points_portable(const LinePlacement& placement, std::span<con
 PlacedBounds place_points(const LinePlacement& placement, std::span<const SurfacePoint> points,
                           PlacedBlock* placed) {
 #if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (has_avx2) return place_points_avx2(placement, points, placed);
+  if (has_avx2()) return place_points_avx2(placement, points, placed);
 #endif
   return place_points_portable(placement, points, placed);
 }

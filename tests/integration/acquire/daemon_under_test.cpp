@@ -1,7 +1,5 @@
 #include "tests/integration/acquire/daemon_under_test.hpp"
 
-#include <unistd.h>
-
 #include <csignal>
 
 namespace linescope::testing {
@@ -21,7 +19,7 @@ DaemonUnderTest::DaemonUnderTest(std::vector<std::string> arguments, std::string
 DaemonUnderTest::~DaemonUnderTest() {
   if (process_.running()) process_.send(SIGKILL);
   process_.wait(std::chrono::seconds(10));
-  for (const std::string& left : leftovers(segment_)) ::unlink(("/dev/shm/" + left).c_str());
+  remove_leftovers(segment_);
 }
 
 std::optional<SegmentReader> DaemonUnderTest::attach() {

@@ -28,7 +28,7 @@ class RealDaemon : public ::testing::Test {
  protected:
   ~RealDaemon() override {
     daemon_.reset();
-    for (const std::string& left : leftovers(name_)) ::unlink(("/dev/shm/" + left).c_str());
+    remove_leftovers(name_);
   }
 
   std::vector<std::string> command(std::vector<std::string> more) const {

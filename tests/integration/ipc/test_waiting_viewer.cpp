@@ -83,9 +83,7 @@ std::string waits_for_a_good_one(const BadSegment& bad, const std::string& name)
 
 class WaitingViewer : public ::testing::TestWithParam<BadSegment> {
  protected:
-  void TearDown() override {
-    for (const std::string& left : leftovers(name_)) ::shm_unlink(left.c_str());
-  }
+  void TearDown() override { remove_leftovers(name_); }
   const std::string name_ = unique_segment();
 };
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <filesystem>
 #include <thread>
 
 #include "common/units.hpp"
@@ -51,10 +50,7 @@ inline double angle_of(const QJsonObject& shown) {
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(display_.up()) << "Xvfb is needed: apt-get install xvfb"; }
-  /// What a daemon that was killed leaves.
-  void TearDown() override {
-    for (const std::string& left : leftovers(segment_)) std::filesystem::remove("/dev/shm/" + left);
-  }
+  void TearDown() override { remove_leftovers(segment_); }
 
   const std::string segment_ = unique_segment();
   VirtualDisplay display_;
