@@ -48,7 +48,7 @@ void include(PlacedBounds& bounds, const PlacedBlock& block, std::size_t lane) {
 }
 
 #if defined(__x86_64__)
-#define LINESCOPE_AVX2 __attribute__((target("avx2"))) inline
+#define LINESCOPE_AVX2 __attribute__((target("avx2"), always_inline)) inline
 
 constexpr int kFields = sizeof(SurfacePoint) / sizeof(float);  // x y z intensity deviation
 constexpr int kDeviation = 4;

@@ -41,7 +41,7 @@ void add_point(const PlacedBlock& block, std::size_t lane, MomentSums& sums) {
 }
 
 #if defined(__x86_64__)
-#define LINESCOPE_AVX2 __attribute__((target("avx2"))) inline
+#define LINESCOPE_AVX2 __attribute__((target("avx2"), always_inline)) inline
 
 bool has_avx2() {
   static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
