@@ -13,6 +13,18 @@ namespace linescope {
 /// Full width at half height of a Gaussian of sigma 1.
 inline constexpr float kFullWidthPerSigma = 2.3548F;
 
+/// What a candidate's shape must keep to, as the numbers it is compared with.
+struct ShapeLimits {
+  float max_saturated = 0, max_width = 0, min_width = 0;
+  int border = 0;
+
+  explicit ShapeLimits(const LineExtractorOptions& o)
+      : max_saturated(static_cast<float>(o.max_saturated)),
+        max_width(static_cast<float>(o.max_width)),
+        min_width(static_cast<float>(o.min_width)),
+        border(o.border) {}
+};
+
 struct Candidate {
   int profile = 0;
   float centre = 0;      ///< px along the profile
@@ -35,14 +47,14 @@ struct Candidate {
 
   /// Rejects what is no line by its shape. `width`: full, px; `before`, `after`: px to the ends of the
   /// profile.
-  void judge_shape(float width, int before, int after, const LineExtractorOptions& options) {
-    if (std::min(before, after) < options.border)
+  void judge_shape(float width, int before, int after, const ShapeLimits& limits) {
+    if (std::min(before, after) < limits.border)
       reject(NoPoint::at_border);
-    else if (saturated > static_cast<float>(options.max_saturated))
+    else if (saturated > limits.max_saturated)
       reject(NoPoint::saturated);
-    else if (width > static_cast<float>(options.max_width))
+    else if (width > limits.max_width)
       reject(NoPoint::too_wide);
-    else if (width < static_cast<float>(options.min_width))
+    else if (width < limits.min_width)
       reject(NoPoint::too_narrow);
   }
 };

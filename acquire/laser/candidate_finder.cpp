@@ -77,11 +77,11 @@ void CandidateFinder::find_one(const Source& source) {
 bool CandidateFinder::find_means_at_once(const Source& source) {
   block_.collect(source.runs, index_, kBlockLanes);
   if (block_.length[0] == 0) return false;
-  mean_sums(block_, excess_, levels_, means_);
+  run_means(block_, excess_, levels_, means_);
   for (std::size_t lane = 0; lane < kBlockLanes && block_.length[lane] > 0; ++lane, ++index_) {
     const Run run = block_.run[lane];
     begin_profile(source.out);
-    fill_mean_candidate(means_.of(lane), length_, index_, run, options_, source.out.all.emplace_back());
+    fill_mean_candidate(means_.of(lane), length_, index_, run, limits_, source.out.all.emplace_back());
     if (index_ % kNoiseEvery == 0)
       source.noise.add(profile_of(source.picture, options_.axis, source.lead, index_), run.last + 3,
                        run.last + 10);
@@ -91,7 +91,7 @@ bool CandidateFinder::find_means_at_once(const Source& source) {
 
 void CandidateFinder::find_means(const Source& source, const Profile& profile, std::span<const Run> runs) {
   for (const Run run : runs) {
-    fill_mean_candidate(mean_sums(profile, run, excess_, levels_), length_, index_, run, options_,
+    fill_mean_candidate(run_mean(profile, run, excess_, levels_), length_, index_, run, limits_,
                         source.out.all.emplace_back());
     if (index_ % kNoiseEvery == 0) source.noise.add(profile, run.last + 3, run.last + 10);
   }
@@ -208,7 +208,7 @@ Candidate CandidateFinder::candidate_from(const Hump& h, int look) const {
   else if (!certain && h.width > 0.5F * static_cast<float>(options_.ridge_reach))
     c.reject(NoPoint::too_wide);  // what is coloured only by comparison must at least be as narrow as a ridge
   else
-    c.judge_shape(h.width, window_.begin() + h.first, length_ - 1 - window_.begin() - h.last, options_);
+    c.judge_shape(h.width, window_.begin() + h.first, length_ - 1 - window_.begin() - h.last, limits_);
   return c;
 }
 

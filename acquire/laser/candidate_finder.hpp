@@ -28,6 +28,7 @@ class CandidateFinder {
       : options_(options),
         excess_(options.colour),
         levels_{options.colour_threshold, options.saturation_level},
+        limits_(options),
         at_once_(at_once) {}
 
   /// Starts a picture. `colour` is the laser's, or mono for grey pictures; `scene` the mean of the picture
@@ -80,12 +81,13 @@ class CandidateFinder {
   LineExtractorOptions options_;
   ColourExcess excess_;
   MeanLevels levels_;
+  ShapeLimits limits_;
   bool at_once_ = false;
   int length_ = 0;  ///< of the profiles
   int index_ = 0;
   LightWindow window_;
   RunBlock block_;  ///< of the profiles that are taken at once, and their sums
-  MeanSumsBlock means_;
+  RunMeanBlock means_;
   LightSumsBlock lights_;
   std::array<Neighbour, 2> neighbours_;  ///< of profiles with even and with odd index
 };

@@ -37,7 +37,7 @@ struct LineExtractor::Work {
   void start(const cv::Mat& m);
   void find_candidates(const PictureView& picture);
   void measure(const PictureView& picture);
-  void add_sample(const Choice& choice, float centre, float peak);
+  void fill_sample(const Choice& choice, float centre, float peak, LineSample& sample);
   void finish();
 
   LineExtractorOptions options;
@@ -82,38 +82,37 @@ void LineExtractor::Work::find_candidates(const PictureView& picture) {
 }
 
 void LineExtractor::Work::measure(const PictureView& picture) {
+  const std::span<const Choice> chosen = choice.chosen();
+  line.samples.resize(chosen.size());
+  LineSample* sample = line.samples.data();
   if (options.centre == CentreMethod::weighted_mean) {
-    for (const Choice& c : choice.chosen()) add_sample(c, c.first->centre, c.first->peak);
+    for (const Choice& c : chosen) fill_sample(c, c.first->centre, c.first->peak, *sample++);
     return;
   }
   gauss.begin(picture, options.axis, leading_channel(options.colour), line.noise);
-  for (const Choice& chosen : choice.chosen()) {
-    const Candidate& c = *chosen.first;
-    const Look& look = candidates.looks[static_cast<std::size_t>(c.look)];
+  for (const Choice& c : chosen) {
+    const Look& look = candidates.looks[static_cast<std::size_t>(c.first->look)];
     const bool calm = look.structure > kMoreThanNoise * line.noise;
-    gauss.add(c.profile, c.centre, chosen.sigma, calm ? look.calm_mix : look.mix);
+    gauss.add(c.first->profile, c.first->centre, c.sigma, calm ? look.calm_mix : look.mix);
   }
   const GaussFit* fit = gauss.fits().data();
-  for (const Choice& c : choice.chosen()) {
+  for (const Choice& c : chosen) {
     const float peak =
         fit->settled && !c.first->clipped ? std::clamp(fit->amplitude, 0.0F, 255.0F) : c.first->peak;
-    add_sample(c, fit->centre, peak);
+    fill_sample(c, fit->centre, peak, *sample++);
     ++fit;
   }
 }
 
-void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) {
+void LineExtractor::Work::fill_sample(const Choice& c, float centre, float peak, LineSample& s) {
   const auto slot = static_cast<float>(c.first->profile);
   const bool column = options.axis == ProfileAxis::column;
-  LineSample& s = line.samples.emplace_back();
   s.u = column ? slot : centre;
   s.v = column ? centre : slot;
   s.width = c.first->sigma;
   s.peak = peak;
   s.snr = peak / line.noise;
   s.saturated = c.first->saturated;
-  line.mean_snr += s.snr;
-  line.saturated_fraction += s.saturated > 0 ? 1.0F : 0.0F;
   if (c.second != nullptr) {
     s.second = c.second->centre;
     s.second_ratio = c.second->support / c.first->support;
@@ -123,9 +122,17 @@ void LineExtractor::Work::add_sample(const Choice& c, float centre, float peak) 
 
 void LineExtractor::Work::finish() {
   if (line.samples.empty()) return;
-  const auto n = static_cast<float>(line.samples.size());
-  line.mean_snr /= n;
-  line.saturated_fraction /= n;
+  const std::size_t n = line.samples.size(), half = n / 2;
+  const LineSample* const s = line.samples.data();
+  float snr = n % 2 == 0 ? 0 : s[n - 1].snr, other = 0;  // side by side: one sum would wait for each addition
+  std::size_t saturated = n % 2 == 0 || s[n - 1].saturated <= 0 ? 0 : 1;
+  for (std::size_t i = 0; i < half; ++i) {
+    snr += s[i].snr;
+    other += s[half + i].snr;
+    saturated += (s[i].saturated > 0 ? 1U : 0U) + (s[half + i].saturated > 0 ? 1U : 0U);
+  }
+  line.mean_snr = (snr + other) / static_cast<float>(n);
+  line.saturated_fraction = static_cast<float>(saturated) / static_cast<float>(n);
 }
 
 LineExtractor::LineExtractor(const LineExtractorOptions& options) : work_(std::make_unique<Work>(options)) {}

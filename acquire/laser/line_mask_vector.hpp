@@ -71,6 +71,16 @@ inline RowPlan plan_of_row(const PictureView& p, const MaskRule& rule, int y) {
   return plan;
 }
 
+/// Rows from which on the first kPrefetch bytes are worth asking for; shorter ones are asked for by those
+/// before.
+inline constexpr int kLongRow = 4 * kPrefetch;
+
+/// Asks memory for the beginnings of the rows, in the order in which they are needed.
+inline void fetch_begin(std::span<const MarkedRow> rows) {
+  for (std::ptrdiff_t at = 0; at < kPrefetch; at += 64)
+    for (const MarkedRow& row : rows) __builtin_prefetch(row.pixels + at);
+}
+
 /// `Vectors::mark<On, Ridge>` marks whole groups of a stretch of all rows and says how many of each it did;
 /// the plain version does the others.
 template <class Vectors, unsigned On, bool Ridge>
@@ -95,6 +105,7 @@ void mark_rows_by(const PictureView& p, const MaskRule& rule, const RowPlan& pla
       rows[i].ahead = kPrefetch + std::max<std::ptrdiff_t>(rows[i].sides.after, 0);
       sides = sides && rows[i].sides.any();
     }
+    if (from < to && p.width >= kLongRow) fetch_begin({rows.data(), ys.size()});
     if (from < to && (!Ridge || sides))
       done += Vectors::template mark<On, Ridge>({rows.data(), ys.size()}, rule, to - from);
     from = std::max(from, to);

@@ -16,35 +16,42 @@ void RunBlock::begin(const PictureView& p, ProfileAxis axis, int lead) {
 }
 
 void RunBlock::collect(const RunFinder& runs, int from, int count) {
-  longest = 0;
+  const std::ptrdiff_t pitch = pitch_, end = end_;  // not read again after each lane that was written
+  const int step_now = step;
+  int most = 0;
   length = {};
   count = std::min(count, profiles_ - from);
   for (int i = 0; i < count; ++i) {
     const Run only = runs.only_run(from + i);
     const int pixels = only.length();
-    const std::ptrdiff_t at = pitch_ * (from + i) + std::ptrdiff_t{step} * only.first;
-    if (pixels == 0 || pixels > kLongest || at + std::ptrdiff_t{step} * (pixels - 1) >= end_) continue;
+    const std::ptrdiff_t at = pitch * (from + i) + std::ptrdiff_t{step_now} * only.first;
+    const bool fits = pixels > 0 && pixels <= kLongest && at + std::ptrdiff_t{step_now} * (pixels - 1) < end;
     const auto lane = static_cast<std::size_t>(i);
     run[lane] = only;
     begin_at[lane] = static_cast<std::int32_t>(at);
-    length[lane] = pixels;
-    longest = std::max(longest, pixels);
+    length[lane] = fits ? pixels : 0;
+    most = std::max(most, length[lane]);
   }
+  longest = most;
 }
 
-MeanSums mean_sums(const Profile& profile, Run run, const ColourExcess& excess, MeanLevels levels) {
-  MeanSums s;
+RunMean run_mean(const Profile& profile, Run run, const ColourExcess& excess, MeanLevels levels) {
+  std::int64_t sum = 0;
+  std::int64_t sums = 0;  // of the sums so far: each weight as often as there are pixels from it to the end
+  int peak = 1, saturated = 0;
   const std::uint8_t* p = profile.at[0] + run.first * profile.step;
   const std::ptrdiff_t second = profile.at[1] - profile.at[0], third = profile.at[2] - profile.at[0];
   for (int i = run.length(); i > 0; --i, p += profile.step) {
     const int e = excess.of(p[0], p[second], p[third]);
     const int weight = e >= levels.threshold ? e : 0;
-    s.saturated += p[0] >= levels.saturation ? 1 : 0;
-    s.sum += weight;
-    s.sums += s.sum;
-    s.peak = std::max(s.peak, weight);
+    saturated += p[0] >= levels.saturation ? 1 : 0;
+    sum += weight;
+    sums += sum;
+    peak = std::max(peak, weight);
   }
-  return s;
+  const auto area = static_cast<float>(std::max<std::int64_t>(sum, 1)), height = static_cast<float>(peak);
+  return {static_cast<float>(sums) / area, area / (height * kGaussArea), height,
+          static_cast<float>(saturated)};
 }
 
 LightSums light_sums(const Profile& profile, Run run, const ColourExcess& excess, int background) {

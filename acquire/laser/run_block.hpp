@@ -13,6 +13,7 @@ namespace linescope {
 
 inline constexpr int kBlockLanes = 8;
 using LaneInts = std::array<std::int32_t, kBlockLanes>;
+using LaneFloats = std::array<float, kBlockLanes>;
 
 /// Where the runs lie. Bytes are counted from the picture's first; a pixel is read as the four bytes that
 /// begin with its first.
@@ -38,17 +39,19 @@ struct RunBlock {
   std::ptrdiff_t end_ = 0;    ///< before this byte four may be read
 };
 
-/// The weighted mean's: over the colour excess where it reaches the threshold, 0 elsewhere.
-struct MeanSums {
-  std::int64_t sum = 0;
-  std::int64_t sums = 0;  ///< of the sums so far: each weight as often as there are pixels from it to the end
-  int peak = 1;
-  int saturated = 0;
+/// The weighted mean of a run: over the colour excess where it reaches the threshold, 0 elsewhere.
+struct RunMean {
+  float before_end = 0;  ///< px from the pixel behind the run back to the mean
+  float sigma = 0;       ///< px, of the Gaussian of the same area and height
+  float peak = 1;        ///< of the excess; at least 1
+  float saturated = 0;   ///< px
 };
-struct MeanSumsBlock {
-  LaneInts sum{}, sums{}, peak{}, saturated{};
-  MeanSums of(std::size_t lane) const { return {sum[lane], sums[lane], peak[lane], saturated[lane]}; }
+struct RunMeanBlock {
+  LaneFloats before_end{}, sigma{}, peak{}, saturated{};
+  RunMean of(std::size_t lane) const { return {before_end[lane], sigma[lane], peak[lane], saturated[lane]}; }
 };
+/// Area of a Gaussian over its height and standard deviation.
+inline constexpr float kGaussArea = 2.5066F;
 struct MeanLevels {
   int threshold = 0, saturation = 255;
 };
@@ -66,12 +69,12 @@ struct LightSumsBlock {
 };
 
 /// One run, in plain C++: the definition.
-MeanSums mean_sums(const Profile& profile, Run run, const ColourExcess& excess, MeanLevels levels);
+RunMean run_mean(const Profile& profile, Run run, const ColourExcess& excess, MeanLevels levels);
 LightSums light_sums(const Profile& profile, Run run, const ColourExcess& excess, int background);
 
 /// The same for a block by vectors. Precondition: block_sums_known().
 bool block_sums_known();
-void mean_sums(const RunBlock& block, const ColourExcess& excess, MeanLevels levels, MeanSumsBlock& out);
+void run_means(const RunBlock& block, const ColourExcess& excess, MeanLevels levels, RunMeanBlock& out);
 void light_sums(const RunBlock& block, const ColourExcess& excess, int background, LightSumsBlock& out);
 
 }  // namespace linescope

@@ -84,30 +84,29 @@ void RunFinder::find(const PictureView& picture, const MaskRule& rule, int merge
     open_first_.resize(whole);
     open_last_.assign(whole, kNone);
   }
-  const auto take = !columns  ? &RunFinder::take_row
+  const auto take = !columns  ? &RunFinder::take_rows
                     : avx512_ ? &RunFinder::take_columns_avx512
                               : &RunFinder::take_columns;
   std::fill_n(words_.begin(), words, 0U);
   marker(picture, rule, words_.data() + words);
-  const std::uint32_t* row = words_.data() + words;
-  for (int y = 0; y < picture.height; ++y, row += words) {
-    (this->*take)(y, row, words);
-    if (want_ambient && y % kAmbientRows == 0) sample_ambient(picture, y, row);
-  }
+  (this->*take)(words_.data() + words, words, picture.height);
+  for (int y = 0; want_ambient && y < picture.height; y += kAmbientRows)
+    sample_ambient(picture, y, words_.data() + words * (y + 1));
   if (columns) close_columns(picture.height);
   finish_ambient();
 }
 
 /// Only where marks begin and end something happens, not at every marked pixel.
-void RunFinder::take_columns(int y, const std::uint32_t* words, int count) {
+void RunFinder::take_columns(const std::uint32_t* words, int count, int height) {
   constexpr int kBlock = 4;  // words, compared at once
-  for (int block = 0; block < count; block += kBlock) {
-    const std::uint32_t* const now = words + block;
-    const int n = std::min(kBlock, count - block);
-    if (n == kBlock && std::memcmp(now, now - count, kBlock * sizeof(*now)) == 0) continue;
-    for (int w = 0; w < n; ++w)
-      if (now[w] != now[w - count]) turn(y, (block + w) * kMaskGroup, now[w - count], now[w]);
-  }
+  for (int y = 0; y < height; ++y, words += count)
+    for (int block = 0; block < count; block += kBlock) {
+      const std::uint32_t* const now = words + block;
+      const int n = std::min(kBlock, count - block);
+      if (n == kBlock && std::memcmp(now, now - count, kBlock * sizeof(*now)) == 0) continue;
+      for (int w = 0; w < n; ++w)
+        if (now[w] != now[w - count]) turn(y, (block + w) * kMaskGroup, now[w - count], now[w]);
+    }
 }
 
 /// Whole vectors of columns: the marks are too ragged for branches on each.
@@ -144,6 +143,10 @@ void RunFinder::close_columns(int height) {
     runs_[x] = run;  // the rule
     count_[x] = 1;
   }
+}
+
+void RunFinder::take_rows(const std::uint32_t* words, int count, int height) {
+  for (int y = 0; y < height; ++y, words += count) take_row(y, words, count);
 }
 
 void RunFinder::take_row(int y, const std::uint32_t* words, int count) {

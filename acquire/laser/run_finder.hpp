@@ -54,12 +54,15 @@ class RunFinder {
  private:
   static constexpr std::int16_t kNone = -1000;  ///< so long before the picture that any mark begins a run
 
-  void take_columns(int y, const std::uint32_t* words, int count);
+  /// All rows of marks; `count` words each, and before the first a row without any.
+  void take_columns(const std::uint32_t* words, int count, int height);
+  void take_rows(const std::uint32_t* words, int count, int height);
   /// Marks of the 32 columns from x on changed from row y - 1 to row y.
   void turn(int y, int x, std::uint32_t before, std::uint32_t now);
   /// Both with vectors that hold 32 columns; run_finder_avx512.cpp.
   static bool knows_avx512();
-  void take_columns_avx512(int y, const std::uint32_t* words, int count);
+  void take_columns_avx512(const std::uint32_t* words, int count, int height);
+  std::size_t list_changes(const std::uint32_t* words, int count, int height);
   void close_columns(int height);
   void take_row(int y, const std::uint32_t* words, int count);
   void close(int profile, Run run);
@@ -75,7 +78,8 @@ class RunFinder {
   std::array<std::uint64_t, 3> ambient_sum_{};
   std::uint64_t ambient_count_ = 0;
   std::array<float, 3> ambient_{};
-  std::vector<std::uint32_t> words_;  ///< marks of all rows, and before them a row without any
+  std::vector<std::uint32_t> words_;    ///< marks of all rows, and before them a row without any
+  std::vector<std::uint32_t> changes_;  ///< words that differ from the row above (take_columns_avx512)
   // Columns: the run that may still grow (last: kNone before the first).
   std::vector<std::int16_t> open_first_, open_last_;
   std::vector<Run> runs_;  ///< first runs of all profiles, second runs of all profiles, ...

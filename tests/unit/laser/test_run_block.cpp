@@ -73,18 +73,18 @@ class RunBlockSums : public ::testing::TestWithParam<Case> {
 constexpr std::array kColours{LaserColour::blue, LaserColour::green, LaserColour::red, LaserColour::cyan,
                               LaserColour::mono};
 
-TEST_P(RunBlockSums, OfTheMeanAreThoseOfEachRun) {
+TEST_P(RunBlockSums, MeansAreThoseOfEachRun) {
   for (const LaserColour colour : kColours) {
     const ColourExcess excess(GetParam().channels == 1 ? LaserColour::mono : colour);
     const MeanLevels levels{40, 200};
     int n = 0;
     for_each_block(leading_channel(colour), n,
                    [&](const Profile& p, Stretch run, const RunBlock& block, std::size_t lane) {
-                     MeanSumsBlock sums;
-                     mean_sums(block, excess, levels, sums);
-                     const MeanSums one = mean_sums(p, run, excess, levels), laned = sums.of(lane);
-                     ASSERT_EQ(laned.sum, one.sum);
-                     ASSERT_EQ(laned.sums, one.sums);
+                     RunMeanBlock means;
+                     run_means(block, excess, levels, means);
+                     const RunMean one = run_mean(p, run, excess, levels), laned = means.of(lane);
+                     ASSERT_EQ(laned.before_end, one.before_end);
+                     ASSERT_EQ(laned.sigma, one.sigma);
                      ASSERT_EQ(laned.peak, one.peak);
                      ASSERT_EQ(laned.saturated, one.saturated);
                    });
