@@ -128,11 +128,13 @@ LINESCOPE_AVX2 void place_eight(const Placement8& placement, const SurfacePoint*
   const __m256 at[3] = {field_of<0>(eight), field_of<1>(eight), field_of<2>(eight)};
   const __m256 deviation = field_of<kDeviation>(eight);
   __m256 admitted = within(deviation, placement.low[3], placement.high[3]);
+#pragma GCC unroll 3  // or bounds go through memory
   for (int i = 0; i < 3; ++i)
     admitted = _mm256_and_ps(admitted, within(at[i], placement.low[i], placement.high[i]));
   const __m256i usable = _mm256_castps_si256(admitted);
   const __m256i refused = _mm256_xor_si256(usable, _mm256_set1_epi32(-1));
   std::int32_t* const rows[3] = {block.x.data() + lane, block.y.data() + lane, block.z.data() + lane};
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     const __m256i steps = _mm256_and_si256(
         _mm256_cvttps_epi32(_mm256_mul_ps(_mm256_sub_ps(at[i], placement.origin[i]), placement.scale)),

@@ -12,6 +12,7 @@
 #include "tests/bench/laser/interleaved.hpp"
 #include "tests/bench/laser/peers.hpp"
 #include "tests/bench/laser/scene.hpp"
+#include "tests/bench/one_processor.hpp"
 
 namespace linescope::bench {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "acquire/reconstruct/line_reconstructor.hpp"
 #include "tests/bench/laser/interleaved.hpp"
+#include "tests/bench/one_processor.hpp"
 
 namespace linescope::bench {
 namespace {

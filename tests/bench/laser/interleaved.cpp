@@ -70,11 +70,4 @@ __attribute__((target_clones("avx2", "default"), optimize("O3"))) unsigned long 
   return all;
 }
 
-void pin_to_this_processor() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(sched_getcpu(), &set);
-  sched_setaffinity(0, sizeof(set), &set);
-}
-
 }  // namespace linescope::bench

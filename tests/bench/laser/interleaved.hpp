@@ -31,7 +31,4 @@ double ratio(const std::vector<Timing>& rows, const std::string& a, const std::s
 /// Reads every byte once, as fast as plain code can: the limit for whatever looks at a whole picture.
 unsigned long long read_pass(const void* bytes, unsigned long size);
 
-/// Stays on one processor, so that the alternatives share its caches.
-void pin_to_this_processor();
-
 }  // namespace linescope::bench

@@ -1,5 +1,5 @@
 // From points to triangles: our meshers beside one read of the same bytes and beside the peers, interleaved
-// in one process on one thread, so that a busy machine slows all of them alike. Ratios are what counts.
+// in one process on one processor, so that a busy machine slows all of them alike. Ratios are what counts.
 //
 //   bench_surface                   the donor site, 94,080 points (Google Benchmark's options apply)
 //   bench_surface --large           also 1 and 10 million points
@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "tests/bench/one_processor.hpp"
 #include "tests/bench/surface/file_scan.hpp"
 #include "tests/bench/surface/peers.hpp"
 #include "tests/unit/surface/surface_phantom.hpp"
@@ -280,6 +281,7 @@ int main(int argc, char** argv) {
   const auto file = taken_option(argc, argv, "--scan", true);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  pin_to_this_processor();
   if (file) {
     auto scan = scan_from_file(*file);
     if (!scan) return std::fprintf(stderr, "bench_surface: %s\n", scan.error().message.c_str()), 1;
