@@ -75,10 +75,10 @@ inline RowPlan plan_of_row(const PictureView& p, const MaskRule& rule, int y) {
 /// before.
 inline constexpr int kLongRow = 4 * kPrefetch;
 
-/// Asks memory for the beginnings of the rows, in the order in which they are needed.
+/// Asks memory for what lies before the places from which on the marker does so itself.
 inline void fetch_begin(std::span<const MarkedRow> rows) {
-  for (std::ptrdiff_t at = 0; at < kPrefetch; at += 64)
-    for (const MarkedRow& row : rows) __builtin_prefetch(row.pixels + at);
+  for (std::ptrdiff_t before = kPrefetch; before > 0; before -= 64)
+    for (const MarkedRow& row : rows) __builtin_prefetch(row.pixels + row.ahead - before);
 }
 
 /// `Vectors::mark<On, Ridge>` marks whole groups of a stretch of all rows and says how many of each it did;

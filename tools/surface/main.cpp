@@ -34,10 +34,7 @@ void print_counts(const std::string& file, const std::string& frame, const Trian
   fmt::print("{}: {} triangles, {:.1f} mm^2, frame {}, millimetres\n", file, mesh.triangle_count(),
              mesh.area(), frame);
   if (filled != 0) fmt::print("{} of the triangles fill holes: nobody measured them\n", filled);
-  if (holes.left != 0)
-    fmt::print(
-        "{} holes stay open: {} with too long a rim, {} with too many corners, {} whose rim crosses itself\n",
-        holes.left, holes.too_long, holes.too_many, holes.crossing);
+  if (holes.filled + holes.left != 0) fmt::print("{}\n", in_words(holes));
   fmt::print(
       "{} lines with {} points; refused: {} not finite, {} too far, {} too uncertain, {} without room\n",
       counters.lines, counters.points, counters.not_finite, counters.too_far, counters.too_uncertain,

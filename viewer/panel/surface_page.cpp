@@ -24,22 +24,10 @@ constexpr double kLargestRim = 20;  // mm: a hole some 6 mm across
 constexpr ColourBy kColours[] = {ColourBy::plain, ColourBy::height, ColourBy::uncertainty, ColourBy::age,
                                  ColourBy::coverage};
 
-/// Each hole that is left open, with its reason.
-std::string holes_in(const HoleCounts& h) {
-  std::string open;
-  const auto add = [&](std::size_t count, const char* why) {
-    if (count > 0) open += fmt::format("{}{} {}", open.empty() ? ": " : ", ", grouped(count), why);
-  };
-  add(h.too_long, "with too long a rim");
-  add(h.too_many, "with too many corners");
-  add(h.crossing, "whose rim crosses itself");
-  return fmt::format("{} holes closed, {} open{}", grouped(h.filled), grouped(h.left), open);
-}
-
 /// In one row: the page has no room for another on a small screen.
 std::string size_of(const SurfaceView& s) {
   const std::string triangles = fmt::format("{} triangles", grouped(s.mesh->triangle_count()));
-  if (s.holes) return triangles + " · " + holes_in(*s.holes);
+  if (s.holes) return triangles + " · " + in_words(*s.holes);
   const std::string filled = s.filled > 0 ? fmt::format(" ({} close holes)", grouped(s.filled)) : "";
   return fmt::format("{}{}, {} grid points", triangles, filled, grouped(s.grid ? s.grid->size() : 0));
 }

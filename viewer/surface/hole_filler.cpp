@@ -274,6 +274,17 @@ std::size_t& close(TriangleMesh& mesh, const Rim& rim, double longest_rim, HoleC
 
 }  // namespace
 
+std::string in_words(const HoleCounts& holes) {
+  std::string reasons;
+  const auto add = [&reasons](std::size_t count, const char* why) {
+    if (count > 0) reasons += (reasons.empty() ? ": " : ", ") + std::to_string(count) + ' ' + why;
+  };
+  add(holes.too_long, "with too long a rim");
+  add(holes.too_many, "with too many corners");
+  add(holes.crossing, "whose rim crosses itself");
+  return std::to_string(holes.filled) + " holes closed, " + std::to_string(holes.left) + " open" + reasons;
+}
+
 HoleCounts fill_holes(TriangleMesh& mesh, double longest_rim) {
   HoleCounts counts;
   for (const Rim& rim : holes_of(mesh)) ++close(mesh, rim, longest_rim, counts);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "viewer/surface/triangle_mesh.hpp"
 
@@ -14,6 +15,9 @@ struct HoleCounts {
   std::size_t too_many = 0;  ///< neither star-shaped nor of at most kMaxRimCorners vertices
   std::size_t crossing = 0;  ///< the rim crosses itself, seen along the mean normal
 };
+
+/// For people: how many were closed, how many stay open, and why.
+std::string in_words(const HoleCounts& holes);
 
 /// Fills every hole whose rim is at most `longest_rim` mm long. Of the borders of a connected piece the
 /// longest is the outer one and never a hole.

@@ -13,9 +13,11 @@
 namespace linescope {
 namespace {
 
+using ::testing::ContainsRegex;
 using testing::file_contents;
 using testing::Finished;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::run_to_end;
 using testing::TemporaryFolder;
 
@@ -85,6 +87,17 @@ TEST_F(SurfaceTool, MethodAndIntervalAreTheUsers) {
   const auto count = [&](const char* name) { return vertices_of_obj(path(name)).size(); };
   EXPECT_GT(count("pmc.obj"), 3 * count("one.obj") / 2);  // a skin on both sides
   EXPECT_LT(count("coarse.obj"), count("one.obj") / 2);
+}
+
+TEST_F(SurfaceTool, SaysWhichHolesAreClosedAndWhyOthersStayOpen) {
+  const Finished none = surface("none.obj", {"--interval", "0.3"}),
+                 some = surface("some.obj", {"--interval", "0.3", "--fill-holes", "1.5"});
+  ASSERT_EQ(none.code, 0) << none.err;
+  EXPECT_THAT(none.out, Not(HasSubstr("hole")));
+  ASSERT_EQ(some.code, 0) << some.err;
+  EXPECT_THAT(some.out,
+              ContainsRegex("[1-9][0-9]* holes closed, [1-9][0-9]* open: [1-9][0-9]* with too long a rim"));
+  EXPECT_THAT(some.out, HasSubstr("fill holes: nobody measured them"));
 }
 
 TEST_F(SurfaceTool, RefusesInOneSentence) {
