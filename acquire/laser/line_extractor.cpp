@@ -1,7 +1,10 @@
 #include "acquire/laser/line_extractor.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <opencv2/core.hpp>
+#include <span>
 
 #include "acquire/laser/candidate_finder.hpp"
 #include "acquire/laser/continuity.hpp"
@@ -122,17 +125,14 @@ void LineExtractor::Work::fill_sample(const Choice& c, float centre, float peak,
 
 void LineExtractor::Work::finish() {
   if (line.samples.empty()) return;
-  const std::size_t n = line.samples.size(), half = n / 2;
-  const LineSample* const s = line.samples.data();
-  float snr = n % 2 == 0 ? 0 : s[n - 1].snr, other = 0;  // side by side: one sum would wait for each addition
-  std::size_t saturated = n % 2 == 0 || s[n - 1].saturated <= 0 ? 0 : 1;
-  for (std::size_t i = 0; i < half; ++i) {
-    snr += s[i].snr;
-    other += s[half + i].snr;
-    saturated += (s[i].saturated > 0 ? 1U : 0U) + (s[half + i].saturated > 0 ? 1U : 0U);
-  }
-  line.mean_snr = (snr + other) / static_cast<float>(n);
-  line.saturated_fraction = static_cast<float>(saturated) / static_cast<float>(n);
+  const auto n = static_cast<float>(line.samples.size());
+  const auto saturated = [](const LineSample& s) { return s.saturated > 0; };
+  const auto snr = [](const LineSample& s) { return s.snr; };
+  // In any order: added one after the other, each would wait for the one before.
+  line.mean_snr =
+      std::transform_reduce(line.samples.begin(), line.samples.end(), 0.0F, std::plus<>(), snr) / n;
+  line.saturated_fraction =
+      static_cast<float>(std::count_if(line.samples.begin(), line.samples.end(), saturated)) / n;
 }
 
 LineExtractor::LineExtractor(const LineExtractorOptions& options) : work_(std::make_unique<Work>(options)) {}

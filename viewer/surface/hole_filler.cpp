@@ -282,7 +282,8 @@ std::string in_words(const HoleCounts& holes) {
   add(holes.too_long, "with too long a rim");
   add(holes.too_many, "with too many corners");
   add(holes.crossing, "whose rim crosses itself");
-  return std::to_string(holes.filled) + " holes closed, " + std::to_string(holes.left) + " open" + reasons;
+  const char* const closed = holes.filled == 1 ? " hole closed, " : " holes closed, ";
+  return std::to_string(holes.filled) + closed + std::to_string(holes.left) + " open" + reasons;
 }
 
 HoleCounts fill_holes(TriangleMesh& mesh, double longest_rim) {
