@@ -9,21 +9,17 @@ namespace {
 
 /// Peak that one good candidate in twenty exceeds, to a whole grey level; 0 without candidates.
 int strong_peak(const CandidateList& candidates) {
-  // By turns in two tables: neighbours are about as bright, and counting one would wait for the other.
-  std::array<std::array<std::uint32_t, 2>, 256> counts{};
-  std::uint32_t left = 0, turn = 0;
+  std::array<std::uint32_t, 256> counts{};
+  std::uint32_t left = 0;
   for (const Candidate& c : candidates.all) {
-    const std::uint32_t one = c.good ? 1 : 0;
-    counts[static_cast<std::size_t>(std::clamp(c.peak, 0.0F, 255.0F))][turn ^= 1U] += one;
-    left += one;
+    if (!c.good) continue;
+    ++counts[static_cast<std::size_t>(std::clamp(c.peak, 0.0F, 255.0F))];
+    ++left;
   }
   left /= 20;
-  const auto count = [&](int peak) {
-    const auto& both = counts[static_cast<std::size_t>(peak)];
-    return both[0] + both[1];
-  };
   int peak = 255;
-  for (; peak > 0 && count(peak) <= left; --peak) left -= count(peak);
+  for (; peak > 0 && counts[static_cast<std::size_t>(peak)] <= left; --peak)
+    left -= counts[static_cast<std::size_t>(peak)];
   return peak;
 }
 

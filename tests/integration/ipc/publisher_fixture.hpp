@@ -11,6 +11,7 @@
 
 #include "ipc/segment_reader.hpp"
 #include "tests/integration/ipc/child.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope::testing {
 
@@ -22,7 +23,8 @@ struct Finished {
 class PublisherTest : public ::testing::Test {
  protected:
   void start_publisher(const std::string& lines_per_second) {
-    publisher_.reset();  // the one before it ends first: two would write into one segment
+    publisher_.reset();       // the one before it ends first: two would write into one segment
+    remove_leftovers(name_);  // it was killed: what it left would be taken for the next one's
     publisher_ =
         std::make_unique<Child>(Child::program({LINESCOPE_IPC_PUBLISHER, name_, lines_per_second}, log_));
     // Seen once is enough: at full speed the next look may well find a picture that is just overwritten.
@@ -64,8 +66,7 @@ class PublisherTest : public ::testing::Test {
 
   void TearDown() override {
     publisher_.reset();
-    ::unlink(("/dev/shm/" + name_).c_str());
-    ::unlink(("/dev/shm/" + name_ + "-control").c_str());
+    remove_leftovers(name_);
     ::unlink(log_.c_str());
   }
 

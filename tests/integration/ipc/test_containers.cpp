@@ -12,6 +12,7 @@
 #include "ipc/segment_writer.hpp"
 #include "tests/integration/ipc/child.hpp"
 #include "tests/integration/ipc/kill_series.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope::testing {
 namespace {
@@ -22,10 +23,7 @@ constexpr int kNotPermitted = 77;
 
 class Containers : public ::testing::Test {
  protected:
-  void TearDown() override {
-    ::unlink(("/dev/shm/" + name_).c_str());
-    ::unlink(("/dev/shm/" + name_ + "-control").c_str());
-  }
+  void TearDown() override { remove_leftovers(name_); }
   SegmentOptions options(std::uint32_t points) const {
     SegmentOptions o;
     o.name = name_;

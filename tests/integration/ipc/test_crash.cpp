@@ -10,6 +10,7 @@
 #include "ipc/control.hpp"
 #include "tests/integration/ipc/child.hpp"
 #include "tests/integration/ipc/kill_series.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace linescope::testing {
 namespace {
@@ -22,8 +23,7 @@ class Crash : public ::testing::Test {
   bool exists(const std::string& name) const { return ::access(("/dev/shm/" + name).c_str(), F_OK) == 0; }
   int random(int most) { return std::uniform_int_distribution(0, most)(random_); }
   void TearDown() override {
-    ::unlink(("/dev/shm/" + name_).c_str());
-    ::unlink(("/dev/shm/" + name_ + "-control").c_str());
+    remove_leftovers(name_);
     ::unlink(log_.c_str());
   }
   std::string log() const {
