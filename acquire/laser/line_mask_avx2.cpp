@@ -1,5 +1,6 @@
 // The first look, 32 pixels at a time on the interleaved bytes (line_mask_vector.hpp).
 #include "acquire/laser/line_mask_vector.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -98,8 +99,7 @@ struct MarkAvx2 {
 }  // namespace
 
 Marker mask_detail::avx2_marker(const MaskRule& rule) {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? marker_of<MarkAvx2>(rule)
-                                                                          : nullptr;
+  return has_avx2_and_bits() ? marker_of<MarkAvx2>(rule) : nullptr;
 }
 
 }  // namespace linescope

@@ -1,6 +1,7 @@
 // The first look, 64 pixels at a time: line_mask_avx2.cpp with vectors twice as long and comparisons that
 // give bits.
 #include "acquire/laser/line_mask_vector.hpp"
+#include "common/processor.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -87,9 +88,7 @@ struct MarkAvx512 {
 }  // namespace
 
 Marker mask_detail::avx512_marker(const MaskRule& rule) {
-  const bool known = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                     __builtin_cpu_supports("bmi2");
-  return known ? marker_of<MarkAvx512>(rule) : nullptr;
+  return has_avx512() ? marker_of<MarkAvx512>(rule) : nullptr;
 }
 
 }  // namespace linescope

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "common/processor.hpp"
+
 namespace linescope {
 namespace {
 
@@ -36,7 +38,7 @@ bool any(Columns v) {
 
 }  // namespace
 
-RunFinder::RunFinder(bool vectors) : avx512_(vectors && knows_avx512()) {}
+RunFinder::RunFinder(bool vectors) : avx512_(vectors && has_avx512()) {}
 
 void RunFinder::sample_ambient(const PictureView& picture, int y, const std::uint32_t* words) {
   const int groups = mask_words(picture.width);

@@ -60,7 +60,6 @@ class RunFinder {
   /// Marks of the 32 columns from x on changed from row y - 1 to row y.
   void turn(int y, int x, std::uint32_t before, std::uint32_t now);
   /// Both with vectors that hold 32 columns; run_finder_avx512.cpp.
-  static bool knows_avx512();
   void take_columns_avx512(const std::uint32_t* words, int count, int height);
   std::size_t list_changes(const std::uint32_t* words, int count, int height);
   void close_columns(int height);

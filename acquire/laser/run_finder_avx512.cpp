@@ -10,11 +10,6 @@ namespace linescope {
 
 #define LINESCOPE_AVX512 __attribute__((target("avx512f,avx512bw,popcnt")))
 
-bool RunFinder::knows_avx512() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("popcnt");
-}
-
 // First where something changes, without a branch on it: specks make that a matter of chance.
 LINESCOPE_AVX512 std::size_t RunFinder::list_changes(const std::uint32_t* words, int count, int height) {
   constexpr int kBlock = 16;  // words, compared at once
@@ -66,9 +61,6 @@ LINESCOPE_AVX512 void RunFinder::take_columns_avx512(const std::uint32_t* words,
 #else
 
 namespace linescope {
-bool RunFinder::knows_avx512() {
-  return false;
-}
 std::size_t RunFinder::list_changes(const std::uint32_t*, int, int) {
   return 0;
 }

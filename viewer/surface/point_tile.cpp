@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "common/processor.hpp"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -42,12 +44,6 @@ void add_point(const PlacedBlock& block, std::size_t lane, MomentSums& sums) {
 
 #if defined(__x86_64__)
 #define LINESCOPE_AVX2 __attribute__((target("avx2"), always_inline)) inline
-
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
-                          __builtin_cpu_supports("popcnt") != 0;
-  return has;
-}
 
 LINESCOPE_AVX2 __m256i load(const std::int32_t* values) {
   return _mm256_load_si256(reinterpret_cast<const __m256i*>(values));
@@ -233,7 +229,7 @@ void count_points_portable(std::span<const PlacedBlock> blocks, std::int32_t shi
 void count_points(std::span<const PlacedBlock> blocks, std::int32_t shift, const TileBox& box,
                   std::uint32_t* tile) {
 #if defined(__x86_64__)
-  if (has_avx2()) return count_points_avx2(blocks, shift, box, tile);
+  if (has_avx2_and_bits()) return count_points_avx2(blocks, shift, box, tile);
 #endif
   count_points_portable(blocks, shift, box, tile);
 }
@@ -264,7 +260,7 @@ std::span<const MomentTile::Cube> MomentTile::sums_portable(std::span<const Plac
 
 std::span<const MomentTile::Cube> MomentTile::sums(std::span<const PlacedBlock> batch, const TileBox& box) {
 #if defined(__x86_64__)
-  if (has_avx2()) {
+  if (has_avx2_and_bits()) {
     list_places(batch, box);
     add_up_places();
     return cubes_;

@@ -1,7 +1,6 @@
 #include "tests/bench/laser/interleaved.hpp"
 
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <array>
