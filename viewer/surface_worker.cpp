@@ -69,8 +69,7 @@ struct SurfaceWorker::Work {
     mesher->write_mesh(*mesh);
     auto view = std::make_shared<SurfaceView>();
     view->filled = mesh->filled_count();
-    if (options.method == MeshMethod::implicit && options.fill_holes_up_to > 0)
-      view->holes = mesher->state().holes;
+    view->holes = mesher->holes();
     view->area = mesh->area();
     view->seen_area = seen_area(*mesh, lines);
     view->grid = std::make_shared<const std::vector<Eigen::Vector3f>>(mesher->grid_vertices());

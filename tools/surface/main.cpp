@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "acquire/record/recording.hpp"
@@ -29,12 +30,12 @@ TriangleMesh mesh_of(const HeldLines& lines, Mesher& mesher) {
 }
 
 void print_counts(const std::string& file, const std::string& frame, const TriangleMesh& mesh,
-                  const MesherCounters& counters, const HoleCounts& holes) {
+                  const MesherCounters& counters, const std::optional<HoleCounts>& holes) {
   const std::size_t filled = mesh.filled_count();
   fmt::print("{}: {} triangles, {:.1f} mm^2, frame {}, millimetres\n", file, mesh.triangle_count(),
              mesh.area(), frame);
   if (filled != 0) fmt::print("{} of the triangles fill holes: nobody measured them\n", filled);
-  if (holes.filled + holes.left != 0) fmt::print("{}\n", in_words(holes));
+  if (holes && holes->filled + holes->left != 0) fmt::print("{}\n", in_words(*holes));
   fmt::print(
       "{} lines with {} points; refused: {} not finite, {} too far, {} too uncertain, {} without room\n",
       counters.lines, counters.points, counters.not_finite, counters.too_far, counters.too_uncertain,
@@ -55,7 +56,7 @@ Result<void> run(const SurfaceCommand& command) {
                                                 session->lines.size()));
   const std::string frame = frame_name(roles.object >= 0 ? HeldIn::object : HeldIn::world);
   if (auto written = write_mesh(mesh, command.mesh, frame); !written) return written;
-  print_counts(command.mesh, frame, mesh, (*mesher)->counters(), (*mesher)->state().holes);
+  print_counts(command.mesh, frame, mesh, (*mesher)->counters(), (*mesher)->holes());
   return {};
 }
 

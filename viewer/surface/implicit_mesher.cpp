@@ -68,6 +68,10 @@ std::vector<Eigen::Vector3f> ImplicitMesher::grid_vertices() {
   return result;
 }
 
+std::optional<HoleCounts> ImplicitMesher::holes() const {
+  return options_.fill_holes_up_to > 0 ? std::optional(holes_) : std::nullopt;
+}
+
 MesherState ImplicitMesher::state() {
   update();
   MesherState result;
@@ -77,7 +81,6 @@ MesherState ImplicitMesher::state() {
     if (moments_.cell(number).occupied() && !patches_.carries_surface(moments_, number)) ++result.set_aside;
   }
   result.sweeps = moments_.sweeps();
-  result.holes = holes_;
   result.memory_bytes = moments_.memory_bytes() + patches_.memory_bytes() + field_.memory_bytes();
   return result;
 }

@@ -29,6 +29,7 @@ class ImplicitMesher final : public Mesher {
   std::vector<Eigen::Vector3f> grid_vertices() override;
   MesherCounters counters() const override { return counters_; }
   MesherState state() override;
+  std::optional<HoleCounts> holes() const override;
   const MesherOptions& options() const override { return options_; }
 
  private:

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/result.hpp"
@@ -42,7 +43,6 @@ struct MesherState {
       0;  ///< of them: too few points or lines around to carry surface, or contradicting neighbours
   std::size_t sweeps = 0;        ///< sweeps that remove_last_sweep() could take back, one by one
   std::size_t memory_bytes = 0;  ///< held by the mesher, without the mesh itself
-  HoleCounts holes{};            ///< of the mesh written last, when holes are to be filled (implicit)
 };
 
 class Mesher {
@@ -74,6 +74,10 @@ class Mesher {
 
   virtual MesherCounters counters() const = 0;
   virtual MesherState state() = 0;
+
+  /// What became of the holes in the mesh written last; nothing where none are to be filled.
+  virtual std::optional<HoleCounts> holes() const { return std::nullopt; }
+
   virtual const MesherOptions& options() const = 0;
 
   TriangleMesh mesh() {

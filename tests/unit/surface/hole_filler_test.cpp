@@ -94,16 +94,16 @@ TEST(HoleFiller, TheMesherSaysWhatBecameOfTheHoles) {
   const auto strict = std::move(*make_mesher(options));
   testing::add_all(*strict, scan.lines);
   strict->mesh();
-  EXPECT_EQ(strict->state().holes.too_long, 1u);
-  EXPECT_EQ(strict->state().holes.filled, 0u);
+  EXPECT_EQ(strict->holes()->too_long, 1u);
+  EXPECT_EQ(strict->holes()->filled, 0u);
   options.fill_holes_up_to = 25;
   const auto generous = std::move(*make_mesher(options));
   testing::add_all(*generous, scan.lines);
   generous->mesh();
-  EXPECT_EQ(generous->state().holes.filled, 1u);
-  EXPECT_EQ(generous->state().holes.left, 0u);
+  EXPECT_EQ(generous->holes()->filled, 1u);
+  EXPECT_EQ(generous->holes()->left, 0u);
   generous->clear();
-  EXPECT_EQ(generous->state().holes.filled, 0u);
+  EXPECT_EQ(generous->holes()->filled, 0u);
 }
 
 /// A flat square of `cells` x `cells` squares of 1 mm, some of them missing.
