@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "acquire/camera/large_pages.hpp"
+
 namespace linescope {
 namespace {
 
@@ -116,6 +118,7 @@ void DeviceCamera::run() {
 
 void DeviceCamera::capture() {
   Nanoseconds stamp = 0;
+  scratch_.bgr.allocator = &large_pages();  // also in a Frame that next() handed in
   const auto pull = device_->read(scratch_.bgr, stamp);
   if (pull && *pull == Pull::item) return publish(stamp);
   if (!pull && pull.error().code == ErrorCode::unreadable) {

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "acquire/camera/large_pages.hpp"
 #include "acquire/laser/line_extractor.hpp"
 #include "tests/bench/laser/interleaved.hpp"
 #include "tests/bench/laser/peers.hpp"
@@ -17,8 +18,8 @@
 namespace linescope::bench {
 namespace {
 
-constexpr int kFrames = 320;  // 295 MB, more than any cache here: each frame comes from memory, as one that a
-                              // camera has just delivered
+constexpr int kFrames = 320;  // 295 MB, more than any cache here: each frame comes from memory, and lies on
+                              // the pages that the daemon's frames lie on
 constexpr int kDifferent = 64;
 constexpr std::size_t kBytes = std::size_t{kWidth} * kHeight * 3;
 
@@ -31,10 +32,13 @@ LineExtractorOptions options_for(CentreMethod method) {
 
 const std::vector<cv::Mat>& frames() {
   static const std::vector<cv::Mat> all = [] {
-    std::vector<cv::Mat> made;
-    for (int i = 0; i < kFrames; ++i)
-      made.push_back(i < kFrames / 2 ? line_picture(i)
-                                     : made[static_cast<std::size_t>(i - kFrames / 2)].clone());
+    std::vector<cv::Mat> made(kFrames);
+    for (int i = 0; i < kFrames; ++i) {
+      cv::Mat& frame = made[static_cast<std::size_t>(i)];
+      frame.allocator = &large_pages();
+      const int first = i % (kFrames / 2);
+      (first == i ? line_picture(i) : made[static_cast<std::size_t>(first)]).copyTo(frame);
+    }
     return made;
   }();
   return all;

@@ -21,6 +21,7 @@ struct Script {
   int refuse_open = 0;     ///< so many further calls of open() fail
   int opened = 0;
   int read = 0;
+  cv::Size size{3, 2};
   Nanoseconds stamp_offset = 0;  ///< stamp = now - offset; negative: the driver gives none
   Nanoseconds now = 1000 * kSecond;
   std::vector<double> exposures;
@@ -53,7 +54,7 @@ class ScriptedDevice final : public CaptureDevice {
     if (step == Script::Step::broken) return fail(ErrorCode::unreadable, "broken");
     if (step == Script::Step::unplug) return fail(ErrorCode::gone, "the camera was unplugged");
     if (step == Script::Step::silence) return silence();
-    bgr.create(2, 3, CV_8UC3);
+    bgr.create(script_.size, CV_8UC3);
     bgr.setTo(cv::Scalar::all(++script_.read));
     stamp = script_.stamp_offset < 0 ? 0 : script_.now - script_.stamp_offset;
     return Pull::item;
@@ -259,6 +260,18 @@ TEST_F(LiveCamera, PictureMemoryIsHandedRound) {
   }
   EXPECT_LE(seen.size(), DeviceCamera::kQueue + 2)
       << "one picture in the thread, one at the caller, the rest in the queue";
+}
+
+TEST_F(LiveCamera, PicturesOfACameraLieOnLargePages) {
+  constexpr std::uintptr_t kPage = 2 << 20;
+  script.size = {640, 480};
+  DeviceCamera source(std::make_unique<ScriptedDevice>(script), timing());
+  ASSERT_TRUE(source.start());
+  for (std::size_t i = 0; i < 3 * DeviceCamera::kQueue; ++i) {
+    script.add(Step::picture);
+    wait_for_picture(source);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(frame.bgr.data) % kPage, 0U) << "picture " << i;
+  }
 }
 
 }  // namespace
