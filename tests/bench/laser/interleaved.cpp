@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 namespace linescope::bench {
 namespace {
@@ -24,17 +25,26 @@ double seconds(const std::function<void()>& run) {
   return thread_seconds() - start;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<Timing> interleave(const std::vector<Alternative>& alternatives, int rounds) {
-  std::vector<std::vector<double>> times(alternatives.size());
-  for (const Alternative& a : alternatives) a.run();
-  for (int r = 0; r < rounds; ++r)
-    for (std::size_t i = 0; i < alternatives.size(); ++i) times[i].push_back(seconds(alternatives[i].run));
   std::vector<Timing> out;
-  for (std::size_t i = 0; i < alternatives.size(); ++i) {
-    std::sort(times[i].begin(), times[i].end());
-    out.push_back({alternatives[i].name, 1e6 * times[i][times[i].size() / 2], 1e6 * times[i].front()});
+  for (const Alternative& a : alternatives) {
+    a.run();
+    out.push_back({.name = a.name});
+  }
+  for (int r = 0; r < rounds; ++r)
+    for (std::size_t i = 0; i < alternatives.size(); ++i)
+      out[i].round_us.push_back(1e6 * seconds(alternatives[i].run));
+  for (Timing& t : out) {
+    t.median_us = median(t.round_us);
+    t.fastest_us = *std::min_element(t.round_us.begin(), t.round_us.end());
   }
   return out;
 }
@@ -51,9 +61,12 @@ void print_table(const std::string& title, const std::vector<Timing>& rows) {
 
 double ratio(const std::vector<Timing>& rows, const std::string& a, const std::string& b) {
   const auto find = [&](const std::string& name) {
-    return std::find_if(rows.begin(), rows.end(), [&](const Timing& t) { return t.name == name; })->median_us;
+    return std::find_if(rows.begin(), rows.end(), [&](const Timing& t) { return t.name == name; });
   };
-  return find(a) / find(b);
+  std::vector<double> ratios = find(a)->round_us;
+  const std::vector<double>& other = find(b)->round_us;
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] /= other[i];
+  return median(std::move(ratios));
 }
 
 __attribute__((target_clones("avx2", "default"), optimize("O3"))) unsigned long long read_pass(

@@ -17,6 +17,7 @@ struct Timing {
   std::string name;
   double median_us = 0;
   double fastest_us = 0;
+  std::vector<double> round_us{};  ///< every round's, in order
 };
 
 /// Runs every alternative once to warm up and then `rounds` times in turn.
@@ -25,7 +26,8 @@ std::vector<Timing> interleave(const std::vector<Alternative>& alternatives, int
 /// Prints name, median, fastest, and both as multiples of the first row.
 void print_table(const std::string& title, const std::vector<Timing>& rows);
 
-/// Median of `a` over median of `b`; rows by name.
+/// Median of the rounds' ratios of `a` to `b`; rows by name. The machine may change its speed in the middle
+/// of a run: within a round it is much the same for both.
 double ratio(const std::vector<Timing>& rows, const std::string& a, const std::string& b);
 
 /// Reads every byte once, as fast as plain code can: the limit for whatever looks at a whole picture.
