@@ -10,6 +10,7 @@
 
 #include "acquire/reconstruct/laser_surface.hpp"
 #include "acquire/reconstruct/ray_table.hpp"
+#include "common/processor.hpp"
 
 namespace linescope {
 namespace {
@@ -35,10 +36,10 @@ struct Batch {
   Row px, py, pz;            ///< camera's centre to the point, world, mm
 };
 
-void load(std::span<const LineSample> samples, const RayTable& rays, ProfileAxis axis, Batch& b) {
+void load(std::span<const LineSample> samples, RayProfiles rays, Batch& b) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const LineSample& s = samples[i];
-    const Ray ray = rays.at(s.u, s.v, axis);
+    const Ray ray = rays.at(s.u, s.v);
     b.x[i] = ray.x, b.y[i] = ray.y;
     b.x_step[i] = ray.x_step, b.y_step[i] = ray.y_step;
     b.width[i] = s.width, b.snr[i] = s.snr;
@@ -49,8 +50,9 @@ void load(std::span<const LineSample> samples, const RayTable& rays, ProfileAxis
 /// there: on the laser surface both the depth and the ray change. A Gaussian line of width s, peak A in noise
 /// n cannot be placed better than (n / A) sqrt(2 s / sqrt(pi)).
 template <LaserSurface Surface>
-void intersect(const Surface& surface, const Eigen::Matrix3f& rotation, float line_noise_px, std::size_t n,
-               Batch& b) {
+__attribute__((always_inline)) inline void intersect_by(const Surface& surface,
+                                                        const Eigen::Matrix3f& rotation, float line_noise_px,
+                                                        std::size_t n, Batch& b) {
   const std::array<float, 9> r{rotation(0, 0), rotation(0, 1), rotation(0, 2), rotation(1, 0), rotation(1, 1),
                                rotation(1, 2), rotation(2, 0), rotation(2, 1), rotation(2, 2)};
   const float other = line_noise_px * line_noise_px;
@@ -66,6 +68,24 @@ void intersect(const Surface& surface, const Eigen::Matrix3f& rotation, float li
                          hit.depth * (x * b.x_step[i] + y * b.y_step[i]);
     b.deviation[i] = std::abs(per_px) * std::sqrt((1.12838F * b.width[i] + other * snr2) / (snr2 * squared));
   }
+}
+
+#if defined(__x86_64__)
+template <LaserSurface Surface>
+__attribute__((target("avx2"))) void intersect_avx2(const Surface& surface, const Eigen::Matrix3f& rotation,
+                                                    float line_noise_px, std::size_t n, Batch& b) {
+  intersect_by(surface, rotation, line_noise_px, n, b);
+}
+#endif
+
+/// The same numbers by the longest vectors the processor has.
+template <LaserSurface Surface>
+void intersect(const Surface& surface, const Eigen::Matrix3f& rotation, float line_noise_px, std::size_t n,
+               Batch& b) {
+#if defined(__x86_64__)
+  if (has_avx2()) return intersect_avx2(surface, rotation, line_noise_px, n, b);
+#endif
+  intersect_by(surface, rotation, line_noise_px, n, b);
 }
 
 /// Of a sample whose depth lies not within the limits.
@@ -95,7 +115,7 @@ std::size_t store(std::span<const LineSample> samples, const Batch& b, const Jud
 }
 
 template <LaserSurface Surface>
-void place(const ExtractedLine& line, const RayTable& rays, const Surface& surface, const Judge& judge,
+void place(const ExtractedLine& line, RayProfiles rays, const Surface& surface, const Judge& judge,
            const Placement& world_from_camera, ReconstructedLine& out) {
   const std::size_t count = line.samples.size();
   out.points.resize(count);
@@ -104,7 +124,7 @@ void place(const ExtractedLine& line, const RayTable& rays, const Surface& surfa
   std::size_t at = 0;
   for (std::size_t begin = 0; begin < count; begin += Batch::kSize) {
     const std::span samples = std::span(line.samples).subspan(begin, std::min(Batch::kSize, count - begin));
-    load(samples, rays, line.axis, batch);
+    load(samples, rays, batch);
     intersect(surface, world_from_camera.rotation, judge.line_noise_px, samples.size(), batch);
     at = store(samples, batch, judge, world_from_camera.translation, at, out);
   }
@@ -205,10 +225,11 @@ Result<void> LineReconstructor::reconstruct(const ExtractedLine& line,
   const LineReconstructorOptions& o = tables_->options;
   const Judge judge{static_cast<float>(o.min_depth_mm), static_cast<float>(o.max_depth_mm),
                     static_cast<float>(o.line_noise_px)};
+  const RayProfiles rays = tables_->rays.along(line.axis);
   if (tables_->calibration.laser_bend.flat())
-    place(line, tables_->rays, tables_->plane, judge, placement, out);
+    place(line, rays, tables_->plane, judge, placement, out);
   else
-    place(line, tables_->rays, tables_->bent, judge, placement, out);
+    place(line, rays, tables_->bent, judge, placement, out);
   out.camera_in_world = placement.translation;
   out.viewing_direction = mean_direction(out, placement.rotation.col(2));
   return {};

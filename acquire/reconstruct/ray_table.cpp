@@ -1,7 +1,5 @@
 #include "acquire/reconstruct/ray_table.hpp"
 
-#include <limits>
-
 namespace linescope {
 
 RayTable::RayTable(const CameraModel& camera) : width_(camera.width), height_(camera.height) {
@@ -12,11 +10,6 @@ RayTable::RayTable(const CameraModel& camera) : width_(camera.width), height_(ca
       directions_.push_back({d.x(), d.y()});
     }
   }
-}
-
-Ray RayTable::outside() noexcept {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  return {nan, nan, nan, nan};
 }
 
 }  // namespace linescope
