@@ -27,7 +27,7 @@ class LargePages final : public cv::MatAllocator {
     std::size_t bytes = CV_ELEM_SIZE(type);
     for (int i = 0; i < dims; ++i) bytes *= static_cast<std::size_t>(sizes[i]);
     if (data != nullptr || bytes < kPage / 4)
-      return cv::Mat::getStdAllocator()->allocate(dims, sizes, type, data, step, access, usage);
+      return cv::Mat::getDefaultAllocator()->allocate(dims, sizes, type, data, step, access, usage);
     set_steps(dims, sizes, type, step);
     auto picture = std::make_unique<cv::UMatData>(this);
     picture->data = picture->origdata = static_cast<uchar*>(whole_pages(bytes));

@@ -46,7 +46,7 @@ inline std::vector<SurfacePoint> points_for(int seed, std::size_t count) {
 
 inline ScanLineInfo info_for(int seed) {
   ScanLineInfo info;
-  info.time = 1'000'000 * seed;
+  info.time = kMillisecond * seed;
   info.frame = static_cast<std::uint64_t>(seed);
   info.endoscope = {{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {1.0 * seed, 2, 3}}, ToolState::ok};
   info.object = {{Eigen::Quaterniond(1, 0, 0, 0), {4, 5.0 * seed, 6}}, ToolState::distorted_field};

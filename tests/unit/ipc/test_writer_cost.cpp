@@ -2,30 +2,16 @@
 #include <dlfcn.h>
 #include <pthread.h>
 
-#include <cstdlib>
 #include <mutex>
-#include <new>
 
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/ipc/segment_fixture.hpp"
 
 namespace {
 
-thread_local std::size_t allocations_here = 0;
 thread_local std::size_t locks_here = 0;
 
 }  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations_here;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 /// Stands before the C library's own.
 extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
@@ -75,19 +61,19 @@ class WriterCost : public SegmentTest {
 };
 
 TEST_F(WriterCost, TheCountersSeeAllocationsAndLocks) {
-  const std::size_t allocations = allocations_here, locks = locks_here;
+  const std::size_t allocations = allocations_here(), locks = locks_here;
   const std::vector<int> some(100, 1);
   std::mutex mutex;
   const std::lock_guard lock(mutex);
   EXPECT_EQ(some.front(), 1);
-  EXPECT_GT(allocations_here, allocations);
+  EXPECT_GT(allocations_here(), allocations);
   EXPECT_GT(locks_here, locks);
 }
 
 TEST_F(WriterCost, PublishingAllocatesNothingAndTakesNoLock) {
-  const std::size_t allocations = allocations_here, locks = locks_here;
+  const std::size_t allocations = allocations_here(), locks = locks_here;
   publish_everything();
-  const std::size_t allocated = allocations_here - allocations, locked = locks_here - locks;
+  const std::size_t allocated = allocations_here() - allocations, locked = locks_here - locks;
   EXPECT_EQ(allocated, 0U);
   EXPECT_EQ(locked, 0U);
   EXPECT_EQ(writer_->counted(Counter::lines_segment_full), 10U) << "what is refused was part of it";

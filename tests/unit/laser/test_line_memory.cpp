@@ -1,27 +1,8 @@
 // Nothing is allocated per picture once the extractor has seen one like it.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/laser/line_scene.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 namespace linescope {
 namespace {
@@ -42,10 +23,11 @@ TEST(Memory, NothingIsAllocatedAfterTheFirstPicture) {
       options.centre = method;
       LineExtractor extractor(options);
       extractor.extract(busy);
-      const long before = allocations;
+      const std::size_t before = testing::allocations_here();
       const std::size_t found =
           extractor.extract(next).samples.size() + extractor.extract(busy).samples.size();
-      EXPECT_EQ(allocations - before, 0);
+      EXPECT_EQ(testing::allocations_here() - before, 0U);
+      EXPECT_GT(before, 0U) << "the first picture is counted";
       EXPECT_GT(found, 300U);
     }
   }
