@@ -53,6 +53,9 @@ function(linescope_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(LINESCOPE_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # instrumented and less optimized
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} linescope_test_support GTest::gmock GTest::gtest_main
     linescope_warnings linescope_sanitize)
