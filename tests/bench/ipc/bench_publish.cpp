@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "tests/bench/ipc/made_up_scan.hpp"
-#include "tests/bench/ipc/paired.hpp"
+#include "tests/bench/paired.hpp"
 
 namespace linescope::bench {
 namespace {

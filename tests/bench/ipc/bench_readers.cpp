@@ -14,7 +14,7 @@
 #include "ipc/heartbeat.hpp"
 #include "ipc/segment_reader.hpp"
 #include "tests/bench/ipc/made_up_scan.hpp"
-#include "tests/bench/ipc/paired.hpp"
+#include "tests/bench/paired.hpp"
 
 namespace linescope::bench {
 namespace {

@@ -10,9 +10,10 @@
 
 #include "acquire/camera/large_pages.hpp"
 #include "acquire/laser/line_extractor.hpp"
-#include "tests/bench/laser/interleaved.hpp"
 #include "tests/bench/laser/peers.hpp"
+#include "tests/bench/laser/read_pass.hpp"
 #include "tests/bench/laser/scene.hpp"
+#include "tests/bench/laser/way_table.hpp"
 #include "tests/bench/one_processor.hpp"
 
 namespace linescope::bench {
@@ -92,7 +93,8 @@ void extraction(benchmark::State& state) {
   std::size_t at = 0;
   const bool cold = state.range(0) != 0;
   const auto next = [&]() -> const cv::Mat& { return frames()[cold ? at++ % kFrames : 0]; };
-  const std::vector<Alternative> alternatives{
+  enum : std::size_t { read, copied, mean, gauss, hsv_loop, ridges };  // in ways
+  std::vector<Way> ways{
       {"read every byte once", [&] { benchmark::DoNotOptimize(read_pass(next().data, kBytes)); }},
       {"memcpy",
        [&] {
@@ -104,14 +106,13 @@ void extraction(benchmark::State& state) {
       {"OpenCV HSV + inRange + column loop", [&] { hsv.run(next(), centre); }},
       {"OpenCV Steger (sepFilter2D)", [&] { steger.run(next(), centre); }},
   };
-  std::vector<Timing> rows;
-  for (auto _ : state) rows = interleave(alternatives, static_cast<int>(state.range(1)));
-  print_table(cold ? "640x480, each frame from memory" : "640x480, the same frame again", rows);
-  state.counters["T1 mean/read"] = ratio(rows, alternatives[2].name, alternatives[0].name);
-  state.counters["T2 gauss/read"] = ratio(rows, alternatives[3].name, alternatives[0].name);
-  state.counters["T3 HSV/mean"] = ratio(rows, alternatives[4].name, alternatives[2].name);
-  state.counters["T3 HSV/gauss"] = ratio(rows, alternatives[4].name, alternatives[3].name);
-  state.counters["T3 Steger/gauss"] = ratio(rows, alternatives[5].name, alternatives[3].name);
+  for (auto _ : state) run_in_turn(ways, static_cast<int>(state.range(1)));
+  print_table(cold ? "640x480, each frame from memory" : "640x480, the same frame again", ways);
+  state.counters["T1 mean/read"] = ratio(ways[mean], ways[read]);
+  state.counters["T2 gauss/read"] = ratio(ways[gauss], ways[read]);
+  state.counters["T3 HSV/mean"] = ratio(ways[hsv_loop], ways[mean]);
+  state.counters["T3 HSV/gauss"] = ratio(ways[hsv_loop], ways[gauss]);
+  state.counters["T3 Steger/gauss"] = ratio(ways[ridges], ways[gauss]);
 }
 BENCHMARK(extraction)
     ->ArgNames({"cold", "rounds"})

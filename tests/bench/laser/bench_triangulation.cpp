@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "acquire/reconstruct/line_reconstructor.hpp"
-#include "tests/bench/laser/interleaved.hpp"
+#include "tests/bench/laser/way_table.hpp"
 #include "tests/bench/one_processor.hpp"
 
 namespace linescope::bench {
@@ -105,7 +105,7 @@ void triangulation(benchmark::State& state) {
   const LineReconstructor reconstructor = *LineReconstructor::create(calibration, {});
   ReconstructedLine out;
   Peer peer(calibration, pose, line);
-  const std::vector<Alternative> alternatives{
+  std::vector<Way> ways{
       {"ours: ray table, deviation of each point included",
        [&] {
          for (int i = 0; i < kRepeat; ++i)
@@ -116,16 +116,15 @@ void triangulation(benchmark::State& state) {
          for (int i = 0; i < kRepeat; ++i) peer.run();
        }},
   };
-  std::vector<Timing> rows;
-  for (auto _ : state) rows = interleave(alternatives, 51);
-  print_table(fmt::format("{} points, {} calls", line.samples.size(), kRepeat), rows);
+  for (auto _ : state) run_in_turn(ways, 51);
+  print_table(fmt::format("{} points, {} calls", line.samples.size(), kRepeat), ways);
   peer.run_to_the_end();
   double worst = 0;
   for (std::size_t i = 0; i < out.points.size(); ++i)
     worst = std::max(worst, (out.points[i].position.cast<double>() - peer.points[i]).cwiseAbs().maxCoeff());
   fmt::print("points {} of {}, largest difference of a coordinate {:.5f} mm\n", out.points.size(),
              line.samples.size(), worst);
-  state.counters["T4 peer/ours"] = ratio(rows, alternatives[1].name, alternatives[0].name);
+  state.counters["T4 peer/ours"] = ratio(ways[1], ways[0]);
   state.counters["T4 difference mm"] = worst;
 }
 BENCHMARK(triangulation)->ArgName("rows")->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);

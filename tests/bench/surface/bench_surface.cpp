@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "tests/bench/one_processor.hpp"
+#include "tests/bench/paired.hpp"
 #include "tests/bench/surface/file_scan.hpp"
 #include "tests/bench/surface/peers.hpp"
 #include "tests/unit/surface/surface_phantom.hpp"
@@ -29,12 +30,6 @@ using testing::ScanPlan;
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
 }
 
 /// All points of a scan in one piece of memory, as the segment holds them.

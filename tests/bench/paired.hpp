@@ -26,7 +26,7 @@ inline double median(const std::vector<double>& values) {
 struct Way {
   std::string name;
   std::function<void()> run;
-  std::vector<double> ns;
+  std::vector<double> ns{};
 };
 
 /// Processor time of this thread: neighbours on the machine take time from the clock on the wall, not from
