@@ -24,11 +24,9 @@ class LargePages final : public cv::MatAllocator {
  public:
   cv::UMatData* allocate(int dims, const int* sizes, int type, void* data, std::size_t* step,
                          cv::AccessFlag access, cv::UMatUsageFlags usage) const override {
-    std::size_t bytes = CV_ELEM_SIZE(type);
-    for (int i = 0; i < dims; ++i) bytes *= static_cast<std::size_t>(sizes[i]);
+    const std::size_t bytes = laid_out(dims, sizes, type, data == nullptr ? step : nullptr);
     if (data != nullptr || bytes < kPage / 4)
       return cv::Mat::getDefaultAllocator()->allocate(dims, sizes, type, data, step, access, usage);
-    set_steps(dims, sizes, type, step);
     auto picture = std::make_unique<cv::UMatData>(this);
     picture->data = picture->origdata = static_cast<uchar*>(whole_pages(bytes));
     picture->size = bytes;
@@ -45,13 +43,14 @@ class LargePages final : public cv::MatAllocator {
   }
 
  private:
-  static void set_steps(int dims, const int* sizes, int type, std::size_t* step) {
-    if (step == nullptr) return;
+  /// Bytes of a picture without gaps; the steps of its dimensions go to `step` where that is wanted.
+  static std::size_t laid_out(int dims, const int* sizes, int type, std::size_t* step) {
     std::size_t bytes = CV_ELEM_SIZE(type);
     for (int i = dims - 1; i >= 0; --i) {
-      step[i] = bytes;
+      if (step != nullptr) step[i] = bytes;
       bytes *= static_cast<std::size_t>(sizes[i]);
     }
+    return bytes;
   }
 };
 

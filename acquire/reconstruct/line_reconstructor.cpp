@@ -78,7 +78,7 @@ __attribute__((target("avx2"))) void intersect_avx2(const Surface& surface, cons
 }
 #endif
 
-/// The same numbers by the longest vectors the processor has.
+/// The same arithmetic by the longest vectors the processor has, rounded alike: no fused multiplications.
 template <LaserSurface Surface>
 void intersect(const Surface& surface, const Eigen::Matrix3f& rotation, float line_noise_px, std::size_t n,
                Batch& b) {

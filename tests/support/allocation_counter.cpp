@@ -1,14 +1,17 @@
 #include "tests/support/allocation_counter.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
-thread_local std::size_t allocations = 0;
+thread_local std::size_t here = 0;
+std::atomic<std::size_t> everywhere{0};
 
 void* counted(std::size_t size) noexcept {
-  ++allocations;
+  ++here;
+  ++everywhere;
   return std::malloc(size == 0 ? 1 : size);
 }
 
@@ -20,7 +23,10 @@ void* counted_or_thrown(std::size_t size) {
 }  // namespace
 
 std::size_t linescope::testing::allocations_here() {
-  return allocations;
+  return here;
+}
+std::size_t linescope::testing::allocations_everywhere() {
+  return everywhere;
 }
 
 // All of them: where one is missing, a sanitizer's own takes its place and does not know our memory.

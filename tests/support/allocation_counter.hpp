@@ -6,7 +6,8 @@
 
 namespace linescope::testing {
 
-/// Allocations of the calling thread so far.
+/// Allocations so far: of the calling thread, and of all.
 std::size_t allocations_here();
+std::size_t allocations_everywhere();
 
 }  // namespace linescope::testing
